@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/error.h"
+#include "sim/material/herschel_bulkley_parameters.h"
+#include "sim/math/vec.h"
+#include "sim/scene/look.h"
+#include "sim/shape/motion.h"
+#include "sim/shape/shape.h"
+
+/// A scene: what the user asked for, as plain validated structs. SI units, y up, angles in degrees.
+namespace lather {
+
+inline constexpr int kSceneFormat = 1;  ///< the value of the key "lather"
+
+enum class Boundary { kSlip, kStick, kOpen };  ///< kOpen: points that leave are removed and counted
+enum class Kernel { kQuadratic, kCubic };
+enum class Transfer { kFlip, kApic };
+enum class Precision { kFloat, kDouble };
+
+struct Domain {
+  Box3 box;
+  std::array<bool, 3> periodic = {false, false, false};  ///< extent there: a multiple of four spacings
+  Boundary boundary = Boundary::kSlip;                   ///< of all faces that are not periodic
+};
+
+struct Material {
+  std::string name;
+  std::string model = "herschel-bulkley";
+  std::string preset;  ///< the card it was made from, "" if none
+  HerschelBulkleyParameters herschel_bulkley;
+};
+
+struct Body {
+  std::string name;
+  std::string material;
+  ShapePtr shape;
+  Vec3 velocity = Vec3::Zero();          ///< m/s
+  Vec3 spin_deg = Vec3::Zero();          ///< angular velocity about the body's centre of mass, degrees/s
+  Mat3 velocity_gradient = Mat3::Zero(); ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
+};
+
+struct Obstacle {
+  std::string name;
+  ShapePtr shape;
+  bool adhesive = false;
+  double friction = 0;  ///< Coulomb coefficient, dimensionless; not used when adhesive
+  Motion motion = AtRest{};
+  bool visible = true;
+};
+
+struct Numerics {
+  Kernel kernel = Kernel::kCubic;
+  Transfer transfer = Transfer::kFlip;
+  Precision precision = Precision::kFloat;
+  double flip_blend = 0.95;                 ///< alpha at the reference step, dimensionless
+  double flip_blend_reference_step = 1e-5;  ///< s: alpha of a step is flip_blend^(dt / this)
+  double time_step = 0;                     ///< s; 0: from the step bound
+  double safety_factor = 0.4;               ///< of the step bound, dimensionless
+  double max_time_step = 1e30;              ///< s, of the automatic step
+};
+
+struct Scene {
+  std::string name;
+  std::string solver = "mpm";
+  int dimension = 3;
+  Domain domain;
+  Vec3 gravity = {0, -9.81, 0};  ///< m/s^2
+  double duration = 0;           ///< s
+  double frame_rate = 30;        ///< 1/s
+  double spacing = 0;            ///< cell width of the grid, m
+  int points_per_cell = 0;       ///< n^dimension; default 8 in 3D, 4 in 2D
+  std::vector<Material> materials;
+  std::vector<Body> bodies;
+  std::vector<Obstacle> obstacles;
+  std::uint64_t seed = 0;
+  double jitter = 0;  ///< of the initial points, fraction of their distance, 0 … 1
+  Numerics numerics;
+  Look look;
+  Output output;
+
+  /// Frames 0 … last; frame 0 is t = 0.
+  [[nodiscard]] int last_frame() const;
+};
+
+/// A change of one field before the scene is read, as `--set /json/pointer=value`.
+struct Override {
+  std::string pointer;
+  std::string json;  ///< the value as JSON text; text that is no JSON is taken as a string
+};
+
+/// Reads a scene. `size` names one of its "sizes" ("" for none). Sizes are merged first, then overrides.
+/// Throws InputError with all problems found, each with its pointer.
+[[nodiscard]] Scene parse_scene(std::string_view json, std::string_view size = {},
+                                const std::vector<Override>& overrides = {});
+
+/// The scene with every field written out, canonical: parse_scene(to_json(s)) gives s, and equal scenes give equal text.
+[[nodiscard]] std::string to_json(const Scene& scene);
+
+/// SHA-256 of to_json(scene), 64 hex digits.
+[[nodiscard]] std::string scene_hash(const Scene& scene);
+
+/// JSON Schema (2020-12) of a scene, made from the descriptor tables.
+[[nodiscard]] std::string scene_schema();
+
+/// The scene format and the material cards as Markdown tables, made from the descriptor tables.
+[[nodiscard]] std::string scene_reference();
+
+/// The material cards ("shaving-cream", …) as a JSON array.
+[[nodiscard]] std::string material_cards();
+
+}  // namespace lather

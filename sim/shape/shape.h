@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/frame.h"
+#include "sim/math/vec.h"
+
+/// Shapes as signed distances: negative inside, positive outside, metres.
+///
+/// distance() is exact for the primitives; for combinations and non-uniform ellipsoids it is a bound that never
+/// exceeds the true distance in magnitude (1-Lipschitz), so that "further than d" can be trusted.
+namespace lather {
+
+struct Shape;
+using ShapePtr = std::shared_ptr<const Shape>;
+
+// Primitives stand at the origin, axes along y; Placed moves them. A shape owns its parameters.
+struct SphereShape {
+  double radius = 0;
+};
+struct BoxShape {  ///< also the rounded box: the rounding lies inside `size`
+  Vec3 size = Vec3::Zero();
+  double rounding = 0;
+};
+struct CylinderShape {
+  double radius = 0;
+  double height = 0;
+  double rounding = 0;
+};
+struct CapsuleShape {  ///< a segment of `height` between the centres of its two half spheres
+  double radius = 0;
+  double height = 0;
+};
+struct ConeShape {  ///< base circle at y = -height/2, top circle (0: a tip) at y = +height/2
+  double radius = 0;
+  double top_radius = 0;
+  double height = 0;
+};
+struct TorusShape {  ///< ring in the x-z plane
+  double ring_radius = 0;
+  double tube_radius = 0;
+};
+struct EllipsoidShape {
+  Vec3 radii = Vec3::Zero();
+};
+struct PlaneShape {  ///< half space below the plane through the origin
+  Vec3 normal = Vec3::UnitY();
+};
+struct RevolutionShape {  ///< closed polygon (r, y) turned about the y axis; r >= 0, at least 3 points
+  std::vector<Eigen::Vector2d> profile;
+};
+struct UnionShape {
+  std::vector<ShapePtr> of;
+  double smoothing = 0;  ///< width of the blend, m; 0 is the plain union
+};
+struct IntersectionShape {
+  std::vector<ShapePtr> of;
+};
+struct DifferenceShape {  ///< the first without all others
+  std::vector<ShapePtr> of;
+};
+struct PlacedShape {  ///< x_world = translate + rotate * (scale * x_local)
+  ShapePtr shape;
+  Vec3 translate = Vec3::Zero();
+  Vec3 rotate_deg = Vec3::Zero();  ///< about x, then y, then z (fixed axes)
+  double scale = 1;
+};
+
+struct Shape {
+  std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape, EllipsoidShape, PlaneShape,
+               RevolutionShape, UnionShape, IntersectionShape, DifferenceShape, PlacedShape>
+      kind;
+};
+
+/// Signed distance of `x` from the surface, m.
+[[nodiscard]] double distance(const Shape& shape, const Vec3& x);
+
+/// Outward unit normal by central differences of distance() with step `h`; (0, 1, 0) where the gradient vanishes.
+[[nodiscard]] Vec3 normal(const Shape& shape, const Vec3& x, double h);
+
+/// A box that holds the shape; a plane's is clipped to `world`.
+[[nodiscard]] Box3 bounds(const Shape& shape, const Box3& world);
+
+/// The surface as triangles for pictures, clipped to `world`, with edges kept sharp where a primitive has them;
+/// `detail` is the wanted edge length, m. Combinations are meshed from their distance.
+[[nodiscard]] TriangleMesh tessellate(const Shape& shape, const Box3& world, double detail);
+
+}  // namespace lather
