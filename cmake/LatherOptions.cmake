@@ -12,3 +12,9 @@ if(LATHER_SANITIZE)
 endif()
 # Baseline of everything but the kernels, which are compiled once per level (sim/mpm).
 add_compile_options(-march=x86-64-v2)
+
+# A rebuild from nothing takes seconds where ccache is installed. It is used, never required.
+find_program(LATHER_CCACHE ccache)
+if(LATHER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${LATHER_CCACHE})
+endif()
