@@ -10,8 +10,8 @@
 
 /// Shapes as signed distances: negative inside, positive outside, metres.
 ///
-/// distance() is exact for the primitives; for combinations and non-uniform ellipsoids it is a bound that never
-/// exceeds the true distance in magnitude (1-Lipschitz), so that "further than d" can be trusted.
+/// distance() is exact for the primitives; for combinations and non-uniform ellipsoids it is a bound that
+/// never exceeds the true distance in magnitude (1-Lipschitz), so that "further than d" can be trusted.
 namespace lather {
 
 struct Shape;
@@ -70,22 +70,23 @@ struct PlacedShape {  ///< x_world = translate + rotate * (scale * x_local)
 };
 
 struct Shape {
-  std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape, EllipsoidShape, PlaneShape,
-               RevolutionShape, UnionShape, IntersectionShape, DifferenceShape, PlacedShape>
+  std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape, EllipsoidShape,
+               PlaneShape, RevolutionShape, UnionShape, IntersectionShape, DifferenceShape, PlacedShape>
       kind;
 };
 
 /// Signed distance of `x` from the surface, m.
 [[nodiscard]] double distance(const Shape& shape, const Vec3& x);
 
-/// Outward unit normal by central differences of distance() with step `h`; (0, 1, 0) where the gradient vanishes.
+/// Outward unit normal by central differences of distance() with step `h`; (0, 1, 0) where the gradient
+/// vanishes.
 [[nodiscard]] Vec3 normal(const Shape& shape, const Vec3& x, double h);
 
 /// A box that holds the shape; a plane's is clipped to `world`.
 [[nodiscard]] Box3 bounds(const Shape& shape, const Box3& world);
 
-/// The surface as triangles for pictures, clipped to `world`, with edges kept sharp where a primitive has them;
-/// `detail` is the wanted edge length, m. Combinations are meshed from their distance.
+/// The surface as triangles for pictures, clipped to `world`, with edges kept sharp where a primitive has
+/// them; `detail` is the wanted edge length, m. Combinations are meshed from their distance.
 [[nodiscard]] TriangleMesh tessellate(const Shape& shape, const Box3& world, double detail);
 
 }  // namespace lather
