@@ -18,13 +18,14 @@ struct Look {
     double field_of_view_deg = 35;  ///< vertical
   };
   Camera camera;
-  std::string color_by = "material";                        ///< "material", "speed", "J", "plastic_strain"
-  std::optional<std::array<double, 2>> color_range;         ///< none: from each frame's own values
-  std::string color_map = "viridis";                        ///< "viridis", "inferno", "coolwarm", "gray"
-  std::vector<std::array<double, 3>> material_colors;       ///< sRGB in [0, 1], by material; empty: a default palette
-  std::array<double, 3> background = {0.86, 0.89, 0.93};    ///< sRGB
-  bool floor = true;                                        ///< draw the domain's bottom
-  bool legend = true;                                       ///< when coloured by a scalar
+  std::string color_by = "material";                 ///< "material", "speed", "J", "plastic_strain"
+  std::optional<std::array<double, 2>> color_range;  ///< none: from each frame's own values
+  std::string color_map = "viridis";                 ///< "viridis", "inferno", "coolwarm", "gray"
+  std::vector<std::array<double, 3>>
+      material_colors;  ///< sRGB in [0, 1], by material; empty: a default palette
+  std::array<double, 3> background = {0.86, 0.89, 0.93};  ///< sRGB
+  bool floor = true;                                      ///< draw the domain's bottom
+  bool legend = true;                                     ///< when coloured by a scalar
   bool shadows = true;
   double point_scale = 1;  ///< drawn radius over half the initial point distance, dimensionless
 };

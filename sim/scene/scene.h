@@ -40,9 +40,10 @@ struct Body {
   std::string name;
   std::string material;
   ShapePtr shape;
-  Vec3 velocity = Vec3::Zero();          ///< m/s
-  Vec3 spin_deg = Vec3::Zero();          ///< angular velocity about the body's centre of mass, degrees/s
-  Mat3 velocity_gradient = Mat3::Zero(); ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  Vec3 spin_deg = Vec3::Zero();  ///< angular velocity about the body's centre of mass, degrees/s
+  Mat3 velocity_gradient =
+      Mat3::Zero();  ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
 };
 
 struct Obstacle {
@@ -99,7 +100,8 @@ struct Override {
 [[nodiscard]] Scene parse_scene(std::string_view json, std::string_view size = {},
                                 const std::vector<Override>& overrides = {});
 
-/// The scene with every field written out, canonical: parse_scene(to_json(s)) gives s, and equal scenes give equal text.
+/// The scene with every field written out, canonical: parse_scene(to_json(s)) gives s, and equal scenes give
+/// equal text.
 [[nodiscard]] std::string to_json(const Scene& scene);
 
 /// SHA-256 of to_json(scene), 64 hex digits.

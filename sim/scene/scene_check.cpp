@@ -1,0 +1,140 @@
+#include "sim/scene/scene_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lather {
+namespace {
+
+using descriptor::Place;
+
+constexpr double kMinCells = 4;
+constexpr double kMaxCells = 32'000;
+constexpr double kMaxFrames = 100'000;
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+
+std::string text_of(double x) {
+  return write_json(Value(x));
+}
+
+template <class T>
+void check_unique(const std::vector<T>& list, const Place& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto same = [&](const T& other) { return other.name == list[i].name; };
+    const auto end = list.begin() + static_cast<std::ptrdiff_t>(i);
+    if (list[i].name.empty() || std::find_if(list.begin(), end, same) == end) continue;
+    place.at(i).at("name").refuse(Value(list[i].name), "a name of its own",
+                                  "The name \"" + list[i].name + "\" is given to an earlier one already.");
+  }
+}
+
+void check_materials_known(const Scene& scene, const Place& root) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string& wanted = scene.bodies[i].material;
+    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+    const std::string near = descriptor::nearest_name(wanted, names);
+    root.at("bodies")
+        .at(i)
+        .at("material")
+        .refuse(Value(wanted), descriptor::listed(names),
+                "The scene has no material of that name." +
+                    (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+  }
+}
+
+void check_grid(const Value& document, const Scene& scene, const Place& root) {
+  const Value* spacing = document.find("spacing");
+  for (int i = 0; i < scene.dimension; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const double extent = scene.domain.box.extent()[i];
+    const double cells = extent / scene.spacing;
+    if (cells < kMinCells * (1 - 1e-9) || cells > kMaxCells * (1 + 1e-9)) {
+      root.at("spacing").refuse(
+          spacing, "from " + text_of(extent / kMaxCells) + " to " + text_of(extent / kMinCells) + " m",
+          "The domain has " + text_of(std::round(cells * 10) / 10) + " cells along " + kAxes[axis] +
+              "; it must have from 4 to 32000.");
+      continue;
+    }
+    const double blocks = cells / 4;
+    if (!scene.domain.periodic[axis] || std::abs(blocks - std::round(blocks)) <= 1e-9 * blocks) continue;
+    const double fits = 4 * scene.spacing * std::max(1.0, std::round(blocks));
+    root.at("domain")
+        .at("periodic")
+        .at(axis)
+        .refuse(Value(true), "an extent that is a multiple of 4 spacings, e.g. " + text_of(fits) + " m",
+                "The domain's extent along " + std::string(kAxes[axis]) + " is " + text_of(extent) +
+                    " m, which a periodic grid of this spacing does not fit.");
+  }
+}
+
+void check_points_per_cell(const Value& document, Scene& scene, const Place& root) {
+  static const std::array<int, 4> kPlane = {1, 4, 9, 16};
+  static const std::array<int, 4> kSpace = {1, 8, 27, 64};
+  const std::array<int, 4>& allowed = scene.dimension == 2 ? kPlane : kSpace;
+  if (document.find("points_per_cell") == nullptr) scene.points_per_cell = allowed[1];
+  if (std::find(allowed.begin(), allowed.end(), scene.points_per_cell) != allowed.end()) return;
+  root.at("points_per_cell")
+      .refuse(document.find("points_per_cell"), scene.dimension == 2 ? "1, 4, 9 or 16" : "1, 8, 27 or 64",
+              scene.dimension == 2 ? "In 2D a cell holds n^2 points." : "In 3D a cell holds n^3 points.");
+}
+
+void check_frames(const Value& document, const Scene& scene, const Place& root) {
+  const double frames = scene.duration * scene.frame_rate;
+  if (frames <= kMaxFrames) return;
+  root.at("duration")
+      .refuse(document.find("duration"),
+              "at most " + text_of(kMaxFrames / scene.frame_rate) + " s at this frame_rate",
+              "The scene would have more than 100000 frames.");
+}
+
+/// Nothing moves out of the plane of a 2D scene.
+void check_plane(const Value& document, const Scene& scene, const Place& root) {
+  const auto refuse = [](const Value* value, const Place& place, const std::string& message) {
+    place.refuse(value, "0 across the plane", message);
+  };
+  if (scene.gravity.z() != 0) refuse(document.find("gravity"), root.at("gravity"), "A 2D scene has no z.");
+  if (scene.domain.periodic[2]) {
+    refuse(nullptr, root.at("domain").at("periodic").at(2), "A 2D scene cannot be periodic along z.");
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const Value& given = (*document.find("bodies")->array())[i];
+    const Place place = root.at("bodies").at(i);
+    if (body.velocity.z() != 0)
+      refuse(given.find("velocity"), place.at("velocity"), "A 2D body cannot leave the plane.");
+    if (body.spin_deg.x() != 0 || body.spin_deg.y() != 0) {
+      refuse(given.find("spin_deg"), place.at("spin_deg"), "A 2D body can spin about z only.");
+    }
+    if (!body.velocity_gradient.row(2).isZero(0) || !body.velocity_gradient.col(2).isZero(0)) {
+      refuse(given.find("velocity_gradient"), place.at("velocity_gradient"), "A 2D flow has no z.");
+    }
+  }
+}
+
+}  // namespace
+
+void check_names(const Value& document, const Scene& scene, const Place& root) {
+  check_unique(scene.materials, root.at("materials"));
+  check_unique(scene.bodies, root.at("bodies"));
+  check_unique(scene.obstacles, root.at("obstacles"));
+  if (document.find("materials") != nullptr) check_materials_known(scene, root);
+}
+
+void check_whole(const Value& document, Scene& scene, const Place& root) {
+  check_points_per_cell(document, scene, root);
+  check_grid(document, scene, root);
+  check_frames(document, scene, root);
+  if (scene.dimension == 2) check_plane(document, scene, root);
+  const std::size_t colors = scene.look.material_colors.size();
+  if (colors == 0 || colors >= scene.materials.size()) return;
+  root.at("look")
+      .at("material_colors")
+      .refuse(document.find("look")->find("material_colors"),
+              "none, or " + std::to_string(scene.materials.size()) + " colours",
+              "There are too few colours.");
+}
+
+}  // namespace lather

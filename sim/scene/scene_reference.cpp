@@ -1,0 +1,82 @@
+#include "sim/scene/material_cards.h"
+#include "sim/scene/scene.h"
+#include "sim/scene/tables.h"
+
+namespace lather {
+namespace {
+
+using descriptor::FieldInfo;
+using descriptor::TableInfo;
+
+/// Text inside a Markdown table cell.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string default_of(const FieldInfo& field) {
+  if (field.presence == descriptor::Presence::kRequired) return "required";
+  if (!field.default_words.empty()) return cell(field.default_words);
+  return field.default_value ? "`" + cell(write_json(*field.default_value)) + "`" : "none";
+}
+
+std::string rows(const std::vector<FieldInfo>& fields) {
+  if (fields.empty()) return "";
+  std::string out = "| key | meaning | unit | default | allowed |\n|---|---|---|---|---|\n";
+  for (const FieldInfo& f : fields) {
+    out += "| `" + f.name + "` | " + cell(f.words) + " | " + f.unit + " | " + default_of(f) + " | " +
+           cell(f.allowed) + " |\n";
+  }
+  return out + "\n";
+}
+
+std::string section(const TableInfo& table, const std::string& level = "## ") {
+  return level + table.title + "\n\n" + table.words + "\n\n" + rows(table.fields);
+}
+
+template <class Tagged>
+std::string family(const std::string& title, const std::string& words, const Tagged& tagged) {
+  std::string out = "## " + title + "\n\n" + words + "\n\n";
+  for (const auto& a : tagged.alternatives()) out += section(a.info, "### ");
+  return out;
+}
+
+std::string cards() {
+  std::string out =
+      "## material cards\n\n| preset | what it is | source | density kg/m^3 | bulk_modulus Pa | "
+      "shear_modulus Pa | "
+      "yield_stress Pa | viscosity Pa s^h | flow_index |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const MaterialCard& card : all_material_cards()) {
+    out += "| `" + card.name + "` | " + card.words + " | " + card.source;
+    Object values;
+    tables::herschel_bulkley().write_fields(card.parameters, values);
+    for (const auto& [name, value] : values) out += " | " + write_json(value);
+    out += " |\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  std::string out = "# Scene format\n\n";
+  out += section(tables::scene().info());
+  out += "Beside these:\n\n" + rows(tables::document_fields());
+  out += section(tables::domain().info()) + section(tables::material().info());
+  out += section(tables::herschel_bulkley().info(), "### ");
+  out += section(tables::body().info()) + section(tables::obstacle().info());
+  out += family("shapes",
+                "Every shape has a `type` and takes the keys of its placement beside its own:\n\n" +
+                    rows(tables::shapes().common()),
+                tables::shapes());
+  out += family("motions", "Every motion has a `type`.", tables::motions());
+  out += section(tables::numerics().info()) + section(tables::look().info());
+  out += section(tables::camera().info(), "### ") + section(tables::output().info());
+  return out + cards();
+}
+
+}  // namespace lather

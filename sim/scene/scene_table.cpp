@@ -1,0 +1,145 @@
+#include "sim/scene/tables.h"
+
+namespace lather::tables {
+
+using namespace descriptor;  // the vocabulary of tables
+
+namespace {
+
+constexpr std::size_t kMaxMaterials = 255;
+constexpr std::size_t kMaxBodies = 1000;
+constexpr std::size_t kMaxObstacles = 1000;
+constexpr double kMaxGradient = 1e6;  // 1/s
+
+Codec<Vec3> point() {
+  return vector("m", from_to(-kMaxLength, kMaxLength));
+}
+Codec<Vec3> velocity() {
+  return vector("m/s", from_to(-kMaxSpeed, kMaxSpeed));
+}
+
+void check_domain(const Value& value, Domain& d, const Place& place) {
+  const int axes = place.dimension();
+  if (axes == 2) d.box.min.z() = d.box.max.z() = 0;
+  for (int i = 0; i < axes; ++i) {
+    if (d.box.max[i] > d.box.min[i]) continue;
+    place.at("max")
+        .at(static_cast<std::size_t>(i))
+        .refuse((*value.find("max")->array())[static_cast<std::size_t>(i)],
+                "above min, " + write_json(d.box.min[i]) + " m", "The domain is empty along this axis.");
+  }
+}
+
+void check_obstacle(const Value& value, Obstacle& o, const Place& place) {
+  if (!o.adhesive || o.friction == 0) return;
+  place.at("friction")
+      .refuse(value.find("friction"), "only where adhesive is false",
+              "An adhesive obstacle holds what touches it; take out \"friction\" or \"adhesive\".");
+}
+
+}  // namespace
+
+const Table<Domain>& domain() {
+  static const Table<Domain> table(
+      "domain", "The box that the simulation takes place in.",
+      {required<Domain>(
+           "min", [](auto& d) -> auto& { return d.box.min; }, point(), "corner with the least coordinates"),
+       required<Domain>(
+           "max", [](auto& d) -> auto& { return d.box.max; }, point(), "corner opposite"),
+       optional<Domain>("periodic", &Domain::periodic, three_flags(),
+                        "axes along which the domain repeats; its extent there is a multiple of 4 spacings"),
+       optional<Domain>(
+           "boundary", &Domain::boundary,
+           enumeration<Boundary>(
+               {{"slip", Boundary::kSlip}, {"stick", Boundary::kStick}, {"open", Boundary::kOpen}}),
+           "faces that are not periodic: points glide, stick, or leave and are removed")},
+      {}, check_domain);
+  return table;
+}
+
+const Table<Body>& body() {
+  static const Table<Body> table(
+      "body", "Material in the form of a shape.",
+      {required<Body>("name", &Body::name, text(1, 64), "for messages and reports"),
+       required<Body>("material", &Body::material, text(1, 64), "the name of a material"),
+       required<Body>("shape", &Body::shape, shape_codec(), "its form at t = 0"),
+       optional<Body>("velocity", &Body::velocity, velocity(), "at t = 0"),
+       optional<Body>("spin_deg", &Body::spin_deg, vector("degrees/s", from_to(-1e8, 1e8)),
+                      "angular velocity about the centre of mass at t = 0"),
+       optional<Body>("velocity_gradient", &Body::velocity_gradient,
+                      matrix("1/s", from_to(-kMaxGradient, kMaxGradient)),
+                      "adds gradient * x (x from the world's origin) to the velocity at t = 0")});
+  return table;
+}
+
+const Table<Obstacle>& obstacle() {
+  static const Table<Obstacle> table(
+      "obstacle", "A rigid thing that material cannot enter.",
+      {required<Obstacle>("name", &Obstacle::name, text(1, 64), "for messages and reports"),
+       required<Obstacle>("shape", &Obstacle::shape, shape_codec(), "its form and place"),
+       optional<Obstacle>("adhesive", &Obstacle::adhesive, flag(), "material that touches it moves with it"),
+       optional<Obstacle>("friction", &Obstacle::friction, number("1", from_to(0, 1e3)),
+                          "Coulomb coefficient"),
+       optional<Obstacle>("motion", &Obstacle::motion, motion_codec(), "how it moves",
+                          "{\"type\": \"rest\"}"),
+       optional<Obstacle>("visible", &Obstacle::visible, flag(), "draw it")},
+      {}, check_obstacle);
+  return table;
+}
+
+const Table<Scene>& scene() {
+  static const Table<Scene> table(
+      "scene",
+      "SI units, y up, angles in degrees. A 2D scene lies in the x-y plane; shapes are cut at z = 0.",
+      {optional<Scene>("name", &Scene::name, text(0, 200), "for people"),
+       optional<Scene>("solver", &Scene::solver, one_of({"mpm"}), "the method"),
+       optional<Scene>("dimension", &Scene::dimension, integer(2, 3), "2 (plane strain) or 3"),
+       required<Scene>("domain", &Scene::domain, object_of(domain()),
+                       "the box that the simulation takes place in"),
+       optional<Scene>("gravity", &Scene::gravity, vector("m/s^2", from_to(-1e6, 1e6)),
+                       "acceleration of all material"),
+       required<Scene>("duration", &Scene::duration, number("s", above_to(0, 1e6)), "simulated time"),
+       optional<Scene>("frame_rate", &Scene::frame_rate, number("1/s", above_to(0, 1e6)),
+                       "pictures per simulated second"),
+       required<Scene>("spacing", &Scene::spacing, number("m", from_to(1e-6, 1e3)), "cell width of the grid"),
+       optional<Scene>("points_per_cell", &Scene::points_per_cell, integer(1, 64),
+                       "material points in a full cell: n^3 in 3D, n^2 in 2D, n from 1 to 4",
+                       "8 in 3D, 4 in 2D"),
+       required<Scene>("materials", &Scene::materials,
+                       list_of(material_codec(), 1, kMaxMaterials, "materials"), "what bodies are made of"),
+       required<Scene>("bodies", &Scene::bodies, list_of(object_of(body()), 1, kMaxBodies, "bodies"),
+                       "material at t = 0"),
+       optional<Scene>("obstacles", &Scene::obstacles,
+                       list_of(object_of(obstacle()), 0, kMaxObstacles, "obstacles"), "rigid things"),
+       optional<Scene>("seed", &Scene::seed, counter(), "of all random numbers"),
+       optional<Scene>("jitter", &Scene::jitter, number("1", from_to(0, 1)),
+                       "random shift of the initial points, over their distance"),
+       optional<Scene>("numerics", &Scene::numerics, object_of(numerics()), "how it is computed",
+                       "see numerics"),
+       optional<Scene>("look", &Scene::look, object_of(look()), "what pictures show", "see look"),
+       optional<Scene>("output", &Scene::output, object_of(output()), "the pictures' size", "see output")});
+  return table;
+}
+
+std::vector<FieldInfo> document_fields() {
+  return {{"lather",
+           "version of the scene format",
+           Presence::kRequired,
+           "",
+           "1",
+           {{"const", std::int64_t{kSceneFormat}}},
+           {},
+           ""},
+          {"sizes",
+           "named changes of this scene, each merged into it (RFC 7396) when it is asked for: a list is "
+           "replaced as a "
+           "whole, null takes a key away",
+           Presence::kOptional,
+           "",
+           "an object of objects",
+           {{"type", "object"}, {"additionalProperties", Object{{"type", "object"}}}},
+           {},
+           "none"}};
+}
+
+}  // namespace lather::tables

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "sim/scene/scene.h"
+#include "sim/scene/tagged.h"
+
+/// The descriptor tables of everything a scene holds. Ranges are wide: they catch slips of unit and sign, not
+/// bold ideas.
+namespace lather::tables {
+
+/// Coordinates and sizes, m.
+inline constexpr double kMaxLength = 1e6;
+/// Velocities, m/s.
+inline constexpr double kMaxSpeed = 1e6;
+/// "never" as a time, s.
+inline constexpr double kForever = 1e30;
+
+[[nodiscard]] const descriptor::Table<Scene>& scene();
+[[nodiscard]] const descriptor::Table<Domain>& domain();
+[[nodiscard]] const descriptor::Table<Material>& material();
+[[nodiscard]] const descriptor::Table<HerschelBulkleyParameters>& herschel_bulkley();
+[[nodiscard]] const descriptor::Table<Body>& body();
+[[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
+[[nodiscard]] const descriptor::Table<Numerics>& numerics();
+[[nodiscard]] const descriptor::Table<Look>& look();
+[[nodiscard]] const descriptor::Table<Look::Camera>& camera();
+[[nodiscard]] const descriptor::Table<Output>& output();
+[[nodiscard]] const descriptor::Tagged<decltype(Shape::kind)>& shapes();
+[[nodiscard]] const descriptor::Tagged<Motion>& motions();
+
+[[nodiscard]] descriptor::Codec<Material> material_codec();
+[[nodiscard]] descriptor::Codec<ShapePtr> shape_codec();
+[[nodiscard]] descriptor::Codec<Motion> motion_codec();
+
+/// Schemas that others refer to as "#/$defs/…".
+[[nodiscard]] Object material_schema();
+
+/// Keys of a scene document that are not kept in Scene: the format's version and the sizes.
+[[nodiscard]] std::vector<descriptor::FieldInfo> document_fields();
+
+}  // namespace lather::tables
