@@ -115,7 +115,13 @@ export class SubmitView {
 
   /** A problem's words beside the lines that it is about; a click selects them in the box. */
   problem(problem) {
-    const pointer = (problem.pointer ?? "").replace(/^#/, "").replace(/^\/scene(?=\/|$)/, "");
+    const words = [
+      h("p", {}, problem.message ?? problem.detail ?? ""),
+      problem.allowed ? h("p", {class: "quiet"}, `Allowed: ${problem.allowed}`) : null,
+    ];
+    const inScene = /^\/scene(\/.*)?$/.exec(problem.pointer ?? "");
+    if (!inScene) return h("li", {}, h("code", {}, problem.pointer ?? ""), ...words);
+    const pointer = inScene[1] ?? "";
     const text = this.text.value;
     const place = locate(text, pointer);
     const excerpt = text.slice(place.start, place.end).split("\n")[0].slice(0, 100);
@@ -125,12 +131,11 @@ export class SubmitView {
       const lines = text.split("\n").length;
       this.text.scrollTop = (this.text.scrollHeight * Math.max(0, place.line - 4)) / lines;
     };
-    return h(
-      "li", {},
-      h("button", {class: "place", type: "button", onclick: select, title: "Show it in the scene"},
-        h("span", {class: "line-number"}, `line ${place.line}`), h("code", {}, pointer || "/"), h("code", {class: "excerpt"}, excerpt)),
-      h("p", {}, problem.message ?? problem.detail ?? ""),
-      problem.allowed ? h("p", {class: "quiet"}, `Allowed: ${problem.allowed}`) : null);
+    const button = h(
+      "button", {class: "place", type: "button", onclick: select, title: "Show it in the scene"},
+      h("span", {class: "line-number"}, `line ${place.line}`), h("code", {}, pointer || "/"),
+      h("code", {class: "excerpt"}, excerpt));
+    return h("li", {}, button, ...words);
   }
 
   showPlan(plan) {
