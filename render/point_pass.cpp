@@ -35,13 +35,15 @@ PointPass::PointPass(const Gl& gl)
       shadow_(gl, "point shadow", shaders::point_shadow().vertex, shaders::point_shadow().fragment),
       vertices_(gl),
       positions_(gl),
-      colors_(gl) {
+      colors_(gl),
+      normals_(gl) {
   std::array<GLfloat, 2> range{};
   gl.GetFloatv(GL_POINT_SIZE_RANGE, range.data());
   largest_sprite_ = range[1];
 }
 
-void PointPass::upload(const std::vector<std::array<float, 3>>& positions, const std::vector<Rgba>& colors) {
+void PointPass::upload(const std::vector<std::array<float, 3>>& positions, const std::vector<Rgba>& colors,
+                       const std::vector<PackedNormal>& normals) {
   count_ = static_cast<GLsizei>(positions.size());
   bounds_ = empty_box();
   for (const auto& p : positions) bounds_.include(Vec3(p[0], p[1], p[2]));
@@ -52,11 +54,14 @@ void PointPass::upload(const std::vector<std::array<float, 3>>& positions, const
   colors_.upload(GL_ARRAY_BUFFER, colors);
   gl_.VertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
   gl_.EnableVertexAttribArray(1);
+  normals_.upload(GL_ARRAY_BUFFER, normals);
+  gl_.VertexAttribPointer(2, 4, GL_BYTE, GL_TRUE, 0, nullptr);
+  gl_.EnableVertexAttribArray(2);
 }
 
 void PointPass::draw_points(bool quads) const {
   vertices_.bind();
-  for (const GLuint attribute : {0U, 1U}) gl_.VertexAttribDivisor(attribute, quads ? 1 : 0);
+  for (const GLuint attribute : {0U, 1U, 2U}) gl_.VertexAttribDivisor(attribute, quads ? 1 : 0);
   if (quads)
     gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
   else

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/gl_objects.h"
+#include "render/point_normals.h"
 #include "render/rgba.h"
 #include "render/shot.h"
 
@@ -14,8 +15,9 @@ namespace lather::render {
 class PointPass {
  public:
   explicit PointPass(const Gl& gl);
-  /// Colours are one a point.
-  void upload(const std::vector<std::array<float, 3>>& positions, const std::vector<Rgba>& colors);
+  /// Colours and normals are one a point.
+  void upload(const std::vector<std::array<float, 3>>& positions, const std::vector<Rgba>& colors,
+              const std::vector<PackedNormal>& normals);
   void draw(const Shot& shot, int width, int height) const;
   void draw_shadow(const Shot& shot, int side) const;
 
@@ -26,7 +28,7 @@ class PointPass {
   const Gl& gl_;
   Program points_, shadow_;
   VertexArray vertices_;
-  Buffer positions_, colors_;
+  Buffer positions_, colors_, normals_;
   GLsizei count_ = 0;
   Box3 bounds_;
   double largest_sprite_ = 1;  // px

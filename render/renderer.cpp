@@ -8,6 +8,7 @@
 #include "render/legend.h"
 #include "render/mesh_pass.h"
 #include "render/point_colors.h"
+#include "render/point_normals.h"
 #include "render/point_pass.h"
 #include "render/render.h"
 #include "render/screen_passes.h"
@@ -107,7 +108,8 @@ class GlRenderer final : public Renderer {
   Image draw_passes(const Frame& frame, const Shot& shot, const PointColors& colors) {
     pass_times_.clear();
     start_clock();
-    points_->upload(frame.points.position, colors.colors);
+    points_->upload(frame.points.position, colors.colors,
+                    point_normals(frame.points.position, frame.point_radius));
     meshes_->upload(frame);
     record("upload");
     screen_->begin_shadow();
@@ -120,8 +122,6 @@ class GlRenderer final : public Renderer {
     meshes_->draw(shot, frame, look_);
     points_->draw(shot, screen_->drawn_width(), screen_->drawn_height());
     record("geometry");
-    screen_->smooth_points(shot);
-    record("smooth");
     screen_->occlude(shot);
     record("occlusion");
     screen_->composite(shot, look_);

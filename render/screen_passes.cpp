@@ -12,8 +12,6 @@ constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLO
 constexpr TextureFormat kShadowDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, true};
 constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 constexpr TextureFormat kNormal{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV};
-constexpr TextureFormat kSmoothNormal{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT};
-constexpr TextureFormat kMetres{GL_R32F, GL_RED, GL_FLOAT};
 constexpr TextureFormat kFraction{GL_R8, GL_RED, GL_UNSIGNED_BYTE};
 
 Program make(const Gl& gl, const char* label, const shaders::Stages& stages) {
@@ -39,22 +37,14 @@ ScreenPasses::ScreenPasses(const Gl& gl, const Output& output)
       albedo_map_(gl, width_ * samples_, height_ * samples_, kColor),
       normal_map_(gl, width_ * samples_, height_ * samples_, kNormal),
       depth_map_(gl, width_ * samples_, height_ * samples_, kDepth),
-      z_map_(gl, width_, height_, kMetres),
-      smooth_z_map_(gl, width_, height_, kMetres),
-      smooth_normal_map_(gl, width_, height_, kSmoothNormal),
       open_map_(gl, width_, height_, kFraction),
       blurred_open_map_(gl, width_, height_, kFraction),
       picture_map_(gl, width_, height_, kColor),
       shadow_(gl, kShadowSide, kShadowSide, {}, &shadow_map_),
       geometry_(gl, width_ * samples_, height_ * samples_, {&albedo_map_, &normal_map_}, &depth_map_),
-      z_(gl, width_, height_, {&z_map_}, nullptr),
-      smooth_z_(gl, width_, height_, {&smooth_z_map_}, nullptr),
-      smooth_normal_(gl, width_, height_, {&smooth_normal_map_}, nullptr),
       open_(gl, width_, height_, {&open_map_}, nullptr),
       blurred_open_(gl, width_, height_, {&blurred_open_map_}, nullptr),
       picture_(gl, width_, height_, {&picture_map_}, nullptr),
-      smooth_depth_(make(gl, "smooth depth", shaders::smooth_depth())),
-      smooth_normal_pass_(make(gl, "smooth normal", shaders::smooth_normal())),
       occlusion_(make(gl, "occlusion", shaders::occlusion())),
       blur_occlusion_(make(gl, "blur occlusion", shaders::blur_occlusion())),
       composite_(make(gl, "composite", shaders::composite())),
@@ -91,23 +81,6 @@ void ScreenPasses::cover(const Framebuffer& target) const {
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ScreenPasses::smooth_points(const Shot& shot) const {
-  start(smooth_depth_, shot);
-  smooth_depth_.set("radius", shot.point_radius);
-  smooth_depth_.set_texture("albedo_map", 0, albedo_map_.id());
-  smooth_depth_.set_texture("depth_map", 1, depth_map_.id());
-  for (const bool first : {true, false}) {
-    smooth_depth_.set("first", first ? 1 : 0);
-    smooth_depth_.set("vertical", first ? 0 : 1);
-    smooth_depth_.set_texture("z_map", 2, first ? depth_map_.id() : z_map_.id());
-    cover(first ? z_ : smooth_z_);
-  }
-  start(smooth_normal_pass_, shot);
-  smooth_normal_pass_.set("radius", shot.point_radius);
-  smooth_normal_pass_.set_texture("z_map", 0, smooth_z_map_.id());
-  cover(smooth_normal_);
-}
-
 void ScreenPasses::occlude(const Shot& shot) const {
   const double shape = 0.12 * shot.content.extent().norm();  // m
   const double contact = std::max(5 * shot.point_radius, 0.2 * shape);
@@ -115,7 +88,7 @@ void ScreenPasses::occlude(const Shot& shot) const {
   occlusion_.set_texture("albedo_map", 0, albedo_map_.id());
   occlusion_.set_texture("normal_map", 1, normal_map_.id());
   occlusion_.set_texture("depth_map", 2, depth_map_.id());
-  occlusion_.set_texture("smooth_map", 3, smooth_normal_map_.id());
+  occlusion_.set("radius", shot.point_radius);
   occlusion_.set("reach", contact, std::max(shape, contact));
   cover(open_);
   start(blur_occlusion_, shot);
@@ -130,13 +103,13 @@ void ScreenPasses::composite(const Shot& shot, const Look& look) const {
   composite_.set_texture("albedo_map", 0, albedo_map_.id());
   composite_.set_texture("normal_map", 1, normal_map_.id());
   composite_.set_texture("depth_map", 2, depth_map_.id());
-  composite_.set_texture("smooth_map", 3, smooth_normal_map_.id());
-  composite_.set_texture("open_map", 4, blurred_open_map_.id());
-  composite_.set_texture("shadow_map", 5, shadow_map_.id());
+  composite_.set_texture("open_map", 3, blurred_open_map_.id());
+  composite_.set_texture("shadow_map", 4, shadow_map_.id());
   composite_.set("shadows", shot.shadows ? 1 : 0);
   composite_.set("shadow_from_camera", shadow_from_camera(shot));
   composite_.set("shadow_texel", 1.0 / kShadowSide);
-  composite_.set("shadow_offset", 2.5 * shot.shadow_side / kShadowSide + 0.6 * shot.point_radius);
+  composite_.set("shadow_offset", 2.5 * shot.shadow_side / kShadowSide);
+  composite_.set("radius", shot.point_radius);
   composite_.set("key", shot.view.rotate(shot.lights.key));
   composite_.set("fill", shot.view.rotate(shot.lights.fill));
   composite_.set("rim", shot.view.rotate(shot.lights.rim));

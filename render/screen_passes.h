@@ -15,7 +15,6 @@ class ScreenPasses {
 
   void begin_shadow() const;    ///< clears; meshes and points follow
   void begin_geometry() const;  ///< clears; meshes and points follow
-  void smooth_points(const Shot& shot) const;
   void occlude(const Shot& shot) const;
   void composite(const Shot& shot, const Look& look) const;
   /// Top row first.
@@ -32,9 +31,9 @@ class ScreenPasses {
   const Gl& gl_;
   int width_, height_, samples_;
   Texture shadow_map_, albedo_map_, normal_map_, depth_map_;
-  Texture z_map_, smooth_z_map_, smooth_normal_map_, open_map_, blurred_open_map_, picture_map_;
-  Framebuffer shadow_, geometry_, z_, smooth_z_, smooth_normal_, open_, blurred_open_, picture_;
-  Program smooth_depth_, smooth_normal_pass_, occlusion_, blur_occlusion_, composite_;
+  Texture open_map_, blurred_open_map_, picture_map_;
+  Framebuffer shadow_, geometry_, open_, blurred_open_, picture_;
+  Program occlusion_, blur_occlusion_, composite_;
   VertexArray no_vertices_;
 };
 

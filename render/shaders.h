@@ -10,14 +10,12 @@ struct Stages {
   std::string fragment;
 };
 
-[[nodiscard]] Stages mesh();           ///< obstacles into the geometry buffer
-[[nodiscard]] Stages ground();         ///< floor of 3D scenes, backdrop of 2D ones, into the geometry buffer
-[[nodiscard]] Stages points();         ///< sphere impostors into the geometry buffer
-[[nodiscard]] Stages mesh_shadow();    ///< depth from the key light
-[[nodiscard]] Stages point_shadow();   ///< depth from the key light
-[[nodiscard]] Stages smooth_depth();   ///< one axis of a depth blur over neighbouring points
-[[nodiscard]] Stages smooth_normal();  ///< normals of the blurred depth
-[[nodiscard]] Stages occlusion();      ///< screen-space ambient occlusion
+[[nodiscard]] Stages mesh();          ///< obstacles into the geometry buffer
+[[nodiscard]] Stages ground();        ///< floor of 3D scenes, backdrop of 2D ones, into the geometry buffer
+[[nodiscard]] Stages points();        ///< sphere impostors into the geometry buffer
+[[nodiscard]] Stages mesh_shadow();   ///< depth from the key light
+[[nodiscard]] Stages point_shadow();  ///< depth from the key light
+[[nodiscard]] Stages occlusion();     ///< screen-space ambient occlusion
 [[nodiscard]] Stages blur_occlusion();
 [[nodiscard]] Stages composite();  ///< lights, tone map, averages the samples of a pixel, encodes as sRGB
 

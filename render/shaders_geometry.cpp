@@ -73,6 +73,7 @@ Stages points() {
   return {kVersion + kPointCorner + R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 color;
+layout(location = 2) in vec4 surface;  // normal of the body that the points make up, and how much it is one
 uniform mat4 camera_from_world;
 uniform vec4 projection;  // the elements 00, 11, 22 and 23 of the projection
 uniform bool orthographic;
@@ -81,6 +82,7 @@ uniform float radius;     // m
 flat out vec3 center;     // camera space
 flat out float drawn_radius;
 flat out vec3 point_color;
+flat out vec4 body;  // normal in camera space and its weight
 void main() {
   center = (camera_from_world * vec4(position, 1.0)).xyz;
   float distance = orthographic ? 1.0 : max(-center.z, 1e-6);
@@ -88,6 +90,9 @@ void main() {
   // Never smaller than a sample: thin sheets must not fall through between samples.
   drawn_radius = max(radius, 0.75 / px_per_m);
   point_color = color.rgb;
+  // Spheres of a pixel or two are noise: there the body is lit; large ones keep more of their own shape.
+  float weight = surface.w * mix(0.9, 0.6, smoothstep(2.0, 24.0, drawn_radius * px_per_m));
+  body = vec4(mat3(camera_from_world) * surface.xyz, weight);
   // A sphere off the axis is an ellipse; this circle holds it.
   float stretch = orthographic ? 1.0 : length(center) / max(distance - drawn_radius, 0.1 * distance);
   float half_size = drawn_radius * px_per_m * stretch + 1.0;
@@ -102,6 +107,7 @@ void main() {
 flat in vec3 center;
 flat in float drawn_radius;
 flat in vec3 point_color;
+flat in vec4 body;
 uniform vec4 projection;
 uniform bool orthographic;
 uniform vec2 size;
@@ -125,7 +131,7 @@ void main() {
   float ndc_z = orthographic ? projection.z * z + projection.w : (projection.z * z + projection.w) / -z;
   gl_FragDepth = ndc_z * 0.5 + 0.5;
   out_albedo = vec4(point_color, 1.0);
-  out_normal = vec4(normal * 0.5 + 0.5, 1.0);
+  out_normal = vec4(normalize(mix(normal, body.xyz, body.w)) * 0.5 + 0.5, 1.0);
 }
 )"};
 }

@@ -32,80 +32,16 @@ float px_per_m(float z) { return 0.5 * size.y * projection.y / (orthographic ? 1
 
 }  // namespace
 
-Stages smooth_depth() {
-  return {kScreen, kVersion + kCommon + R"(
-uniform sampler2D albedo_map, depth_map, z_map;
-uniform int samples;
-uniform bool first;    // reads the geometry buffer; otherwise z_map
-uniform bool vertical;
-uniform float radius;  // of points, m
-out float out_z;
-float z_at(ivec2 p) {
-  if (!first) return texelFetch(z_map, p, 0).r;
-  ivec2 q = p * samples + samples / 2;
-  return is_point(texelFetch(albedo_map, q, 0).a) ? camera_z(texelFetch(depth_map, q, 0).r) : 0.0;
-}
-void main() {
-  ivec2 p = ivec2(gl_FragCoord.xy);
-  float z = z_at(p);
-  out_z = z;
-  if (z == 0.0) return;
-  float reach = clamp(3.0 * radius * px_per_m(z), 2.0, 24.0);  // px
-  float stride = max(reach / 6.0, 1.0);
-  float sum = 0.0, weights = 0.0;
-  for (int i = -6; i <= 6; ++i) {
-    float at = float(i) * stride;
-    if (abs(at) > reach) continue;
-    ivec2 q = clamp(p + (vertical ? ivec2(0, 1) : ivec2(1, 0)) * int(round(at)), ivec2(0), ivec2(size) - 1);
-    float other = z_at(q);
-    float jump = (other - z) / (4.0 * radius);
-    if (other == 0.0 || abs(jump) > 1.0) continue;
-    float weight = exp(-3.0 * at * at / (reach * reach)) * (1.0 - jump * jump);
-    sum += weight * other;
-    weights += weight;
-  }
-  out_z = sum / weights;
-}
-)"};
-}
-
-Stages smooth_normal() {
-  return {kScreen, kVersion + kCommon + R"(
-uniform sampler2D z_map;
-uniform float radius;
-out vec4 out_normal;
-vec3 position_at(ivec2 p) {
-  return camera_position(vec2(p) + 0.5, texelFetch(z_map, clamp(p, ivec2(0), ivec2(size) - 1), 0).r);
-}
-// The smaller of the two one-sided differences: it does not look across an edge.
-vec3 slope(ivec2 p, vec3 here, ivec2 axis) {
-  vec3 ahead = position_at(p + axis), behind = position_at(p - axis);
-  bool use_ahead = behind.z == 0.0 || (ahead.z != 0.0 && abs(ahead.z - here.z) < abs(behind.z - here.z));
-  return use_ahead ? ahead - here : here - behind;
-}
-void main() {
-  ivec2 p = ivec2(gl_FragCoord.xy);
-  vec3 here = position_at(p);
-  out_normal = vec4(0.0);
-  if (here.z == 0.0) return;
-  vec3 normal = normalize(cross(slope(p, here, ivec2(1, 0)), slope(p, here, ivec2(0, 1))));
-  // Spheres of a pixel or two are noise: there the surface that they make up is lit instead.
-  float weight = mix(0.85, 0.35, smoothstep(1.5, 8.0, radius * px_per_m(here.z)));
-  if (normal.z < 0.05 || any(isnan(normal))) weight = 0.0;
-  out_normal = vec4(normal * 0.5 + 0.5, weight);
-}
-)"};
-}
-
 Stages occlusion() {
   return {kScreen, kVersion + kCommon + R"(
-uniform sampler2D albedo_map, normal_map, depth_map, smooth_map;
+uniform sampler2D albedo_map, normal_map, depth_map;
 uniform int samples;
-uniform vec2 reach;  // m, of the two scales: contact and shape
+uniform vec2 reach;     // m, of the two scales: contact and shape
+uniform float radius;   // of points, m
 out float out_open;
 float kind_at(ivec2 q) { return texelFetch(albedo_map, q, 0).a; }
 // McGuire, Mara, Luebke 2012, "Scalable ambient obscurance", eq. 6, with their spiral of samples.
-float obscurance(vec2 pixel, vec3 here, vec3 normal, float r, float turn) {
+float obscurance(vec2 pixel, vec3 here, vec3 normal, float bias, float r, float turn) {
   const int kSamples = 11;
   float r_px = min(r * px_per_m(here.z), 0.25 * size.y);
   if (r_px < 1.0) return 0.0;
@@ -120,7 +56,7 @@ float obscurance(vec2 pixel, vec3 here, vec3 normal, float r, float turn) {
     vec3 v = camera_position(floor(at) + 0.5, camera_z(texelFetch(depth_map, q, 0).r)) - here;
     float vv = dot(v, v);
     float f = max(1.0 - vv / (r * r), 0.0);
-    sum += f * f * f * max((dot(v, normal) - 0.02 * r) * r / (vv + 1e-4 * r * r), 0.0);
+    sum += f * f * f * max((dot(v, normal) - bias) * r / (vv + 1e-4 * r * r), 0.0);
   }
   return sum / float(kSamples);
 }
@@ -131,12 +67,12 @@ void main() {
   out_open = 1.0;
   if (is_background(kind) || is_backdrop(kind)) return;
   vec3 here = camera_position(vec2(p) + 0.5, camera_z(texelFetch(depth_map, q, 0).r));
-  vec3 normal = texelFetch(normal_map, q, 0).xyz * 2.0 - 1.0;
-  vec4 smooth_normal = texelFetch(smooth_map, p, 0);
-  normal = normalize(mix(normal, smooth_normal.xyz * 2.0 - 1.0, smooth_normal.a));
+  vec3 normal = normalize(texelFetch(normal_map, q, 0).xyz * 2.0 - 1.0);
+  // Spheres do not occlude the ones beside them, only what the surface that they make up can: the rest is noise.
+  float bias = is_point(kind) ? 1.2 * radius : 0.0;
   float turn = float((p.x & 3) * 4 + (p.y & 3)) * (6.2831853 / 16.0);
-  float shut = 1.1 * obscurance(gl_FragCoord.xy, here, normal, reach.x, turn) +
-               1.5 * obscurance(gl_FragCoord.xy, here, normal, reach.y, turn);
+  float shut = 1.3 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.x, reach.x, turn) +
+               3.0 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.y, reach.y, turn);
   out_open = max(0.0, 1.0 - shut);
 }
 )"};
@@ -168,13 +104,14 @@ void main() {
 
 Stages composite() {
   return {kScreen, kVersion + kCommon + R"(
-uniform sampler2D albedo_map, normal_map, depth_map, smooth_map, open_map;
+uniform sampler2D albedo_map, normal_map, depth_map, open_map;
 uniform sampler2DShadow shadow_map;
 uniform int samples;
 uniform bool shadows;
 uniform mat4 shadow_from_camera;  // to texture coordinates and depth
 uniform float shadow_texel;       // of the shadow map, as a fraction of its side
 uniform float shadow_offset;      // m, along the normal
+uniform float radius;             // of points, m
 uniform vec3 key, fill, rim, up;  // unit, towards the lights and the sky, camera space
 uniform vec3 floor_center;        // camera space
 uniform float floor_fade;         // m: the floor is gone at this distance
@@ -184,19 +121,19 @@ out vec4 out_color;
 vec3 linear(vec3 s) { return mix(s / 12.92, pow((s + 0.055) / 1.055, vec3(2.4)), step(0.04045, s)); }
 vec3 srgb(vec3 l) { return mix(l * 12.92, 1.055 * pow(l, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, l)); }
 
-// Straight up to 0.6, then a shoulder that nears 1 and never reaches it: whites keep their shape, colours their hue.
+// Straight up to 0.5, then a shoulder that nears 1 and never reaches it: whites keep their shape, colours their hue.
 vec3 tone(vec3 c) {
-  vec3 over = max(c - 0.6, 0.0);
-  return min(c, 0.6) + 0.4 * (1.0 - exp(-over / 0.4));
+  vec3 over = max(c - 0.5, 0.0);
+  return min(c, 0.5) + 0.5 * (1.0 - exp(-over / 0.5));
 }
 vec3 backdrop(vec2 pixel) {
   float height = pixel.y / size.y;
   vec2 side = pixel / size - 0.5;
   return linear(background) * mix(0.80, 1.06, smoothstep(0.0, 1.0, height)) * (1.0 - 0.22 * dot(side, side));
 }
-float lit(vec3 here, vec3 normal) {
+float lit(vec3 here, vec3 normal, float offset) {
   if (!shadows) return 1.0;
-  vec4 at = shadow_from_camera * vec4(here + normal * shadow_offset, 1.0);
+  vec4 at = shadow_from_camera * vec4(here + normal * offset, 1.0);
   if (any(lessThan(at.xyz, vec3(0.0))) || any(greaterThan(at.xyz, vec3(1.0)))) return 1.0;
   const vec2 kTaps[8] = vec2[](vec2(0.53, 0.11), vec2(-0.29, 0.45), vec2(-0.47, -0.38), vec2(0.2, -0.6),
                                vec2(0.93, -0.36), vec2(0.4, 0.9), vec2(-0.98, 0.2), vec2(-0.3, -0.95));
@@ -204,23 +141,23 @@ float lit(vec3 here, vec3 normal) {
   for (int i = 0; i < 8; ++i) sum += texture(shadow_map, vec3(at.xy + kTaps[i] * 2.2 * shadow_texel, at.z));
   return sum / 8.0;
 }
-vec3 shade(ivec2 q, vec2 pixel, vec4 smooth_normal, float open) {
+vec3 shade(ivec2 q, vec2 pixel, float open) {
   vec4 albedo = texelFetch(albedo_map, q, 0);
   vec3 behind = backdrop(pixel);
   if (is_background(albedo.a)) return behind;
   vec3 base = linear(albedo.rgb);
   if (is_backdrop(albedo.a)) return base;
   vec3 here = camera_position(pixel, camera_z(texelFetch(depth_map, q, 0).r));
-  vec3 normal = texelFetch(normal_map, q, 0).xyz * 2.0 - 1.0;
-  if (is_point(albedo.a)) normal = mix(normal, smooth_normal.xyz * 2.0 - 1.0, smooth_normal.a);
-  normal = normalize(normal);
+  vec3 normal = normalize(texelFetch(normal_map, q, 0).xyz * 2.0 - 1.0);
+  // Points shade each other only from three radii on, else every sphere has a black side.
+  float offset = shadow_offset + (is_point(albedo.a) ? 3.0 * radius : 0.0);
   float facing = dot(normal, key);
   // Wrapped a little past the edge of the light, as scattering inside foam does.
-  float direct = max((facing + 0.12) / 1.12, 0.0) * lit(here, normal);
-  vec3 sky = mix(vec3(0.20, 0.19, 0.18), vec3(0.37, 0.39, 0.43), 0.5 + 0.5 * dot(normal, up));
+  float direct = max((facing + 0.12) / 1.12, 0.0) * lit(here, normal, offset);
+  vec3 sky = mix(vec3(0.15, 0.145, 0.14), vec3(0.27, 0.29, 0.33), 0.5 + 0.5 * dot(normal, up));
   vec3 view = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-here);
   float shine = pow(max(dot(normal, normalize(key + view)), 0.0), 24.0) * 0.05 * step(0.0, facing);
-  vec3 light = vec3(0.80, 0.77, 0.72) * direct + open * (sky + vec3(0.13, 0.14, 0.16) * max(dot(normal, fill), 0.0)) +
+  vec3 light = vec3(0.76, 0.73, 0.68) * direct + open * (sky + vec3(0.09, 0.10, 0.12) * max(dot(normal, fill), 0.0)) +
                open * vec3(0.16) * max(dot(normal, rim), 0.0);
   vec3 color = tone(base * light + shine * direct);
   if (is_floor(albedo.a)) {
@@ -231,13 +168,12 @@ vec3 shade(ivec2 q, vec2 pixel, vec4 smooth_normal, float open) {
 }
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec4 smooth_normal = texelFetch(smooth_map, p, 0);
   float open = texelFetch(open_map, p, 0).r;
   vec3 sum = vec3(0.0);
   for (int j = 0; j < samples; ++j)
     for (int i = 0; i < samples; ++i) {
       vec2 pixel = floor(gl_FragCoord.xy) + (vec2(i, j) + 0.5) / float(samples);
-      sum += shade(p * samples + ivec2(i, j), pixel, smooth_normal, open);
+      sum += shade(p * samples + ivec2(i, j), pixel, open);
     }
   out_color = vec4(srgb(clamp(sum / float(samples * samples), 0.0, 1.0)), 1.0);
 }

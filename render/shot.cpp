@@ -24,7 +24,7 @@ Lights lights_for(const View& view) {
   const Vec3 up(0, 1, 0);
   const Vec3 right = up.cross(toward);
   Lights lights;
-  lights.key = (1.35 * up - 0.85 * right + 0.55 * toward).normalized();
+  lights.key = (1.15 * up - 1.1 * right + 0.2 * toward).normalized();
   lights.fill = (0.25 * up + 0.9 * right + 0.5 * toward).normalized();
   lights.rim = (0.7 * up + 0.35 * right - toward).normalized();
   return lights;

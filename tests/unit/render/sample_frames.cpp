@@ -9,8 +9,8 @@ namespace {
 /// Distance to the axis of a rope that winds up a cone, less the rope's radius; negative inside.
 double dollop_distance(const Vec3& p) {
   double best = 1e9;
-  for (int i = 0; i <= 400; ++i) {
-    const double s = i / 400.0;
+  for (int i = 0; i <= 120; ++i) {
+    const double s = i / 120.0;
     const double angle = 2 * EIGEN_PI * 3.6 * s;
     const double ring = 0.19 * (1 - 0.93 * s), rope = 0.075 * (1 - 0.6 * s);
     const Vec3 center(ring * std::cos(angle), 0.065 + 0.24 * s, ring * std::sin(angle));
