@@ -17,8 +17,8 @@ std::string summary(const std::vector<Problem>& problems) {
 }
 
 std::string summary(const SimulationError::Details& d) {
-  return d.kind + " state at step " + std::to_string(d.step) + " (t = " + std::to_string(d.time) + " s): " +
-         d.quantity + " is " + d.value + ". " + d.advice;
+  return d.kind + " state at step " + std::to_string(d.step) + " (t = " + std::to_string(d.time) +
+         " s): " + d.quantity + " is " + d.value + ". " + d.advice;
 }
 
 }  // namespace

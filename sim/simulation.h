@@ -10,13 +10,14 @@
 
 /// The one door to the physics: create(Plan) -> step to frame -> Frame -> Report; save, restore.
 ///
-/// One thread owns a Simulation; it uses `threads` threads inside a step. Results do not depend on their number.
+/// One thread owns a Simulation; it uses `threads` threads inside a step. Results do not depend on their
+/// number.
 namespace lather {
 
 struct Progress {
-  int frame = 0;        ///< the frame being worked towards
-  double time = 0;      ///< s, simulated
-  double time_step = 0; ///< s, of the last step
+  int frame = 0;         ///< the frame being worked towards
+  double time = 0;       ///< s, simulated
+  double time_step = 0;  ///< s, of the last step
   std::uint64_t step = 0;
 };
 
@@ -26,15 +27,16 @@ class Simulation {
   [[nodiscard]] static std::unique_ptr<Simulation> create(const Plan& plan, int threads = 0);
   virtual ~Simulation() = default;
 
-  /// Steps on to frame `index` (0 … last; 0 is the initial state). Calls `heartbeat` after every step; when that
-  /// returns false it stops there and returns false, in a state from which it can go on.
-  /// Throws SimulationError when the state is no longer finite or runs away.
+  /// Steps on to frame `index` (0 … last; 0 is the initial state). Calls `heartbeat` after every step; when
+  /// that returns false it stops there and returns false, in a state from which it can go on. Throws
+  /// SimulationError when the state is no longer finite or runs away.
   virtual bool step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) = 0;
 
-  [[nodiscard]] virtual Frame frame() const = 0;          ///< snapshot of the present state
-  [[nodiscard]] virtual const Report& report() const = 0; ///< of all steps so far
+  [[nodiscard]] virtual Frame frame() const = 0;           ///< snapshot of the present state
+  [[nodiscard]] virtual const Report& report() const = 0;  ///< of all steps so far
 
-  /// The whole state as bytes, and back; bit-equal onwards. Throws InputError for another plan's or build's bytes.
+  /// The whole state as bytes, and back; bit-equal onwards. Throws InputError for another plan's or build's
+  /// bytes.
   [[nodiscard]] virtual std::string save() const = 0;
   virtual void restore(const std::string& bytes) = 0;
 };

@@ -13,9 +13,9 @@ namespace lather {
 /// Instruction sets that kernels are compiled for. Results are bit-equal within one level.
 enum class KernelLevel { kV2, kV3, kV4 };
 
-[[nodiscard]] const char* to_string(KernelLevel level);               ///< "x86-64-v2" …
-[[nodiscard]] KernelLevel kernel_level_from_string(std::string_view); ///< throws InputError
-[[nodiscard]] KernelLevel best_kernel_level();                        ///< of the machine this runs on
+[[nodiscard]] const char* to_string(KernelLevel level);                ///< "x86-64-v2" …
+[[nodiscard]] KernelLevel kernel_level_from_string(std::string_view);  ///< throws InputError
+[[nodiscard]] KernelLevel best_kernel_level();                         ///< of the machine this runs on
 [[nodiscard]] bool machine_has(KernelLevel level);
 
 /// What is chosen at submission beyond the scene.
@@ -32,8 +32,8 @@ struct PlannedMaterial {
   std::string name;
   std::uint64_t points = 0;
   std::vector<PlannedField> fields;
-  int bytes_per_point = 0;  ///< of a full tile, padding included, over its 16 lanes
-  double wave_speed = 0;    ///< m/s
+  int bytes_per_point = 0;         ///< of a full tile, padding included, over its 16 lanes
+  double wave_speed = 0;           ///< m/s
   double numerical_viscosity = 0;  ///< of the FLIP/PIC blend at the planned step, Pa s; 0 with APIC
 };
 
@@ -42,21 +42,23 @@ struct Plan {
   Choices choices;
 
   std::vector<PlannedMaterial> materials;
-  std::vector<std::string> stages;  ///< in the order in which they run, by the names of the report
-  std::vector<std::string> scalars; ///< point scalars that every frame carries
-  int frames = 0;                   ///< pictures: last_frame + 1
-  double step_bound = 0;            ///< s: spacing / wave speed, without the safety factor
-  double time_step = 0;             ///< s: planned (an automatic step shrinks when points are fast)
-  std::uint64_t steps = 0;          ///< expected
-  std::uint64_t points = 0;         ///< all materials
-  std::uint64_t memory_bytes = 0;   ///< expected peak: particles, their sorted copy, grid, block buffers, frame
+  std::vector<std::string> stages;   ///< in the order in which they run, by the names of the report
+  std::vector<std::string> scalars;  ///< point scalars that every frame carries
+  int frames = 0;                    ///< pictures: last_frame + 1
+  double step_bound = 0;             ///< s: spacing / wave speed, without the safety factor
+  double time_step = 0;              ///< s: planned (an automatic step shrinks when points are fast)
+  std::uint64_t steps = 0;           ///< expected
+  std::uint64_t points = 0;          ///< all materials
+  std::uint64_t memory_bytes =
+      0;  ///< expected peak: particles, their sorted copy, grid, block buffers, frame
   std::vector<std::string> warnings;
 };
 
 /// Throws InputError when the scene cannot be planned (a body without points, a level the machine lacks, …).
 [[nodiscard]] Plan make_plan(const Scene& scene, const Choices& choices = {});
 
-/// Scene, choices and all derived numbers. read_plan() takes scene and choices from it and derives the rest anew.
+/// Scene, choices and all derived numbers. read_plan() takes scene and choices from it and derives the rest
+/// anew.
 [[nodiscard]] std::string to_json(const Plan& plan);
 [[nodiscard]] Plan read_plan(std::string_view json);
 

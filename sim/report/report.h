@@ -19,20 +19,21 @@ struct FrameMeasure {
   double time = 0;  ///< s
   std::uint64_t step = 0;
   std::uint64_t points = 0;
-  double mass = 0;                           ///< kg
-  Vec3 momentum = Vec3::Zero();              ///< kg m/s
-  Vec3 angular_momentum = Vec3::Zero();      ///< about the origin, kg m^2/s, with the affine part of APIC
-  Vec3 center_of_mass = Vec3::Zero();        ///< m
-  Vec3 lowest = Vec3::Zero();                ///< smallest coordinates of any point, m
+  double mass = 0;                       ///< kg
+  Vec3 momentum = Vec3::Zero();          ///< kg m/s
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the origin, kg m^2/s, with the affine part of APIC
+  Vec3 center_of_mass = Vec3::Zero();    ///< m
+  Vec3 lowest = Vec3::Zero();            ///< smallest coordinates of any point, m
   Vec3 highest = Vec3::Zero();
-  double kinetic_energy = 0;                 ///< J
-  double elastic_volume_energy = 0;          ///< J
-  double elastic_shear_energy = 0;           ///< J
-  double gravity_energy = 0;                 ///< J, zero at the origin
-  double max_speed = 0;                      ///< m/s
-  double min_volume_ratio = 0;               ///< smallest J, dimensionless
+  double kinetic_energy = 0;         ///< J
+  double elastic_volume_energy = 0;  ///< J
+  double elastic_shear_energy = 0;   ///< J
+  double gravity_energy = 0;         ///< J, zero at the origin
+  double max_speed = 0;              ///< m/s
+  double min_volume_ratio = 0;       ///< smallest J, dimensionless
   double max_volume_ratio = 0;
-  // Grid density m_i/h^3 at interior nodes (every cell under the kernel's support holds a point), over the initial one.
+  // Grid density m_i/h^3 at interior nodes (every cell under the kernel's support holds a point), over the
+  // initial one.
   std::uint64_t interior_nodes = 0;
   double density_mean = 0;
   double density_min = 0;
@@ -52,9 +53,9 @@ struct Report {
   int threads = 0;
   std::uint64_t steps = 0;
   std::uint64_t point_steps = 0;
-  double simulated_time = 0;      ///< s
-  double wall_seconds = 0;        ///< in simulation steps
-  double render_seconds = 0;      ///< in drawing and encoding, beside the steps
+  double simulated_time = 0;  ///< s
+  double wall_seconds = 0;    ///< in simulation steps
+  double render_seconds = 0;  ///< in drawing and encoding, beside the steps
   double point_steps_per_second = 0;
   double largest_cfl = 0;         ///< speed dt / spacing, dimensionless
   double smallest_time_step = 0;  ///< s

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/frame.h"
+#include "sim/scene/scene.h"
+
+/// Contact with obstacles and with the walls of the domain, on velocities [Foam E.3 steps 6 and 13,
+/// Algorithms 10 and 16; Stomakhin et al. 2013, section 8].
+namespace lather {
+
+/// All obstacles of a scene at one step. Const after place(): safe to share between threads.
+class Obstacles {
+ public:
+  /// `spacing`: the grid's cell width, m; normals are differences over a hundredth of it.
+  Obstacles(const Scene& scene, double spacing);
+
+  /// Puts the obstacles where they are at `time`, with the mean velocity of the step that follows, `dt` long
+  /// (s).
+  void place(double time, double dt);
+
+  [[nodiscard]] bool none() const { return all_.empty(); }
+
+  /// Indices of the obstacles that reach into the ball of `radius` around `center`, into `near` (cleared
+  /// first).
+  void find_near(const Vec3& center, double radius, std::vector<std::uint32_t>& near) const;
+
+  /// Velocity of a node or point at `x` after contact with the obstacles `near`; true if it was changed.
+  ///
+  /// Inside an adhesive obstacle the velocity becomes the obstacle's. Else, with v_rel = v - v_co and outward
+  /// normal n: separating (v_rel . n >= 0) stays; the normal part is removed; the tangential part loses mu_f
+  /// |v_n|, or all.
+  bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const;
+
+ private:
+  struct Placed {
+    const Obstacle* source;
+    Pose pose;
+    Vec3 velocity_at_origin = Vec3::Zero();
+    Mat3 velocity_gradient = Mat3::Zero();
+  };
+  [[nodiscard]] static Vec3 to_local(const Placed& o, const Vec3& x) {
+    return o.pose.rotation.conjugate() * (x - o.pose.translation);
+  }
+
+  std::vector<Obstacle> scene_obstacles_;
+  std::vector<Placed> all_;
+  double normal_step_;
+  bool flat_;  // 2D: normals lie in the plane
+};
+
+/// The faces of the domain that are neither periodic nor open.
+class Walls {
+ public:
+  explicit Walls(const Scene& scene);
+
+  /// True when some face lies within `margin` of the box [low, high].
+  [[nodiscard]] bool near(const Vec3& low, const Vec3& high, double margin) const;
+
+  /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
+  /// moves.
+  bool resolve(const Vec3& x, Vec3& velocity) const;
+
+ private:
+  Box3 box_;
+  int dimension_;
+  bool stick_;
+  std::array<bool, 3> closed_{};
+  double tolerance_;  // a node on the face counts as beyond it
+};
+
+}  // namespace lather

@@ -1,0 +1,246 @@
+#pragma once
+
+// The wide vocabulary: 16 material points, or 4 grid nodes of 4 components, at once.
+//
+// This header is compiled once per kernel level (x86-64-v2, v3, v4) into the namespace lather::LATHER_LEVEL,
+// with Eigen renamed likewise, so that no template instantiated for one instruction set is ever linked into
+// another. Only files compiled per level may include it.
+//
+// Lane<Real> is built on Eigen's packets. Arithmetic is the compiler's own on those vector types: g++ 12
+// fuses multiply-adds there and selects through masks, both of which Eigen::Array misses (its select is four
+// times slower). The same functions exist for plain float and double: a law written once as a template on the
+// value type is its own scalar twin.
+
+#ifndef LATHER_LEVEL
+#error "sim/math/lane.h is for files compiled once per kernel level"
+#endif
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+namespace lather::LATHER_LEVEL {
+
+inline constexpr int kLanes = 16;  ///< width of a tile at every level
+
+template <class Real>
+struct Lane {
+  using Scalar = Real;
+  using Packet = typename Eigen::internal::packet_traits<Real>::type;
+  static constexpr int kPacket = Eigen::internal::unpacket_traits<Packet>::size;
+  static constexpr int kPackets = kLanes / kPacket;
+  using MaskPacket = decltype(Packet{} < Packet{});  ///< integers as wide as Real; all ones: true
+
+  Packet p[kPackets];
+
+  Lane() = default;
+  Lane(Real value) {  // NOLINT(google-explicit-constructor): a scalar is a lane with equal entries
+    for (Packet& q : p) q = Eigen::internal::pset1<Packet>(value);
+  }
+  static Lane load(const Real* from) {
+    Lane r;
+    for (int i = 0; i < kPackets; ++i) r.p[i] = Eigen::internal::ploadu<Packet>(from + i * kPacket);
+    return r;
+  }
+  void store(Real* to) const {
+    for (int i = 0; i < kPackets; ++i) Eigen::internal::pstoreu(to + i * kPacket, p[i]);
+  }
+  Lane& operator+=(const Lane& b) {
+    for (int i = 0; i < kPackets; ++i) p[i] = p[i] + b.p[i];
+    return *this;
+  }
+};
+
+template <class Real>
+struct Mask {
+  typename Lane<Real>::MaskPacket p[Lane<Real>::kPackets];
+};
+
+#define LATHER_LANE_BINARY(op)                                                        \
+  template <class Real>                                                               \
+  inline Lane<Real> operator op(const Lane<Real>& a, const Lane<Real>& b) {           \
+    Lane<Real> r;                                                                     \
+    for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = a.p[i] op b.p[i];         \
+    return r;                                                                         \
+  }                                                                                   \
+  template <class Real>                                                               \
+  inline Lane<Real> operator op(const Lane<Real>& a, typename Lane<Real>::Scalar b) { \
+    return a op Lane<Real>(b);                                                        \
+  }                                                                                   \
+  template <class Real>                                                               \
+  inline Lane<Real> operator op(typename Lane<Real>::Scalar a, const Lane<Real>& b) { \
+    return Lane<Real>(a) op b;                                                        \
+  }
+LATHER_LANE_BINARY(+)
+LATHER_LANE_BINARY(-)
+LATHER_LANE_BINARY(*)
+LATHER_LANE_BINARY(/)
+#undef LATHER_LANE_BINARY
+
+#define LATHER_LANE_COMPARE(op)                                                       \
+  template <class Real>                                                               \
+  inline Mask<Real> operator op(const Lane<Real>& a, const Lane<Real>& b) {           \
+    Mask<Real> r;                                                                     \
+    for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = a.p[i] op b.p[i];         \
+    return r;                                                                         \
+  }                                                                                   \
+  template <class Real>                                                               \
+  inline Mask<Real> operator op(const Lane<Real>& a, typename Lane<Real>::Scalar b) { \
+    return a op Lane<Real>(b);                                                        \
+  }
+LATHER_LANE_COMPARE(<)
+LATHER_LANE_COMPARE(<=)
+LATHER_LANE_COMPARE(>)
+LATHER_LANE_COMPARE(>=)
+#undef LATHER_LANE_COMPARE
+
+template <class Real>
+inline Lane<Real> operator-(const Lane<Real>& a) {
+  Lane<Real> r;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = -a.p[i];
+  return r;
+}
+template <class Real>
+inline Mask<Real> operator&(const Mask<Real>& a, const Mask<Real>& b) {
+  Mask<Real> r;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = a.p[i] & b.p[i];
+  return r;
+}
+template <class Real>
+inline Mask<Real> operator~(const Mask<Real>& a) {
+  Mask<Real> r;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = ~a.p[i];
+  return r;
+}
+template <class Real>
+inline Lane<Real> select(const Mask<Real>& mask, const Lane<Real>& yes, const Lane<Real>& no) {
+  Lane<Real> r;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = mask.p[i] ? yes.p[i] : no.p[i];
+  return r;
+}
+template <class Real>
+inline bool any(const Mask<Real>& mask) {
+  bool found = false;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i)
+    for (int k = 0; k < Lane<Real>::kPacket; ++k) found |= mask.p[i][k] != 0;
+  return found;
+}
+
+#define LATHER_LANE_UNARY(name, packet_function)                                                      \
+  template <class Real>                                                                               \
+  inline Lane<Real> name(const Lane<Real>& a) {                                                       \
+    Lane<Real> r;                                                                                     \
+    for (int i = 0; i < Lane<Real>::kPackets; ++i) r.p[i] = Eigen::internal::packet_function(a.p[i]); \
+    return r;                                                                                         \
+  }
+LATHER_LANE_UNARY(sqrt, psqrt)
+LATHER_LANE_UNARY(abs, pabs)
+LATHER_LANE_UNARY(exp, pexp)
+LATHER_LANE_UNARY(log, plog)
+#undef LATHER_LANE_UNARY
+
+/// The larger, the smaller value; a NaN in `a` gives `b`, so no maximum may stand in for a test for NaN.
+template <class Real>
+inline Lane<Real> max(const Lane<Real>& a, const Lane<Real>& b) {
+  return select(a > b, a, b);
+}
+template <class Real>
+inline Lane<Real> min(const Lane<Real>& a, const Lane<Real>& b) {
+  return select(a < b, a, b);
+}
+
+// The same vocabulary for one point.
+inline float select(bool mask, float yes, float no) {
+  return mask ? yes : no;
+}
+inline double select(bool mask, double yes, double no) {
+  return mask ? yes : no;
+}
+inline bool any(bool mask) {
+  return mask;
+}
+inline float sqrt(float a) {
+  return __builtin_sqrtf(a);
+}
+inline double sqrt(double a) {
+  return __builtin_sqrt(a);
+}
+inline float exp(float a) {
+  return __builtin_expf(a);
+}
+inline double exp(double a) {
+  return __builtin_exp(a);
+}
+inline float log(float a) {
+  return __builtin_logf(a);
+}
+inline double log(double a) {
+  return __builtin_log(a);
+}
+inline float abs(float a) {
+  return __builtin_fabsf(a);
+}
+inline double abs(double a) {
+  return __builtin_fabs(a);
+}
+inline float max(float a, float b) {
+  return a > b ? a : b;
+}
+inline double max(double a, double b) {
+  return a > b ? a : b;
+}
+inline float min(float a, float b) {
+  return a < b ? a : b;
+}
+inline double min(double a, double b) {
+  return a < b ? a : b;
+}
+
+template <class T>
+struct ScalarOf {
+  using type = T;
+};
+template <class Real>
+struct ScalarOf<Lane<Real>> {
+  using type = Real;
+};
+
+// ---- Four grid nodes of four components (mass and momentum, say) as one lane ----
+
+/// Four reals: the weights of a row of four nodes, or the components of one node.
+template <class Real>
+struct Quad {
+  Real v[4];
+};
+
+/// (q0 q1 q2 q3) four times over: one node's components at each of four nodes.
+template <class Real>
+inline Lane<Real> repeat(const Quad<Real>& q) {
+  Lane<Real> r;
+  constexpr int n = Lane<Real>::kPacket;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i)
+    for (int k = 0; k < n; ++k) r.p[i][k] = q.v[(i * n + k) % 4];
+  return r;
+}
+
+/// (w0 w0 w0 w0 w1 w1 w1 w1 …): each node's weight at each of its components.
+template <class Real>
+inline Lane<Real> spread(const Quad<Real>& w) {
+  Lane<Real> r;
+  constexpr int n = Lane<Real>::kPacket;
+  for (int i = 0; i < Lane<Real>::kPackets; ++i)
+    for (int k = 0; k < n; ++k) r.p[i][k] = w.v[(i * n + k) / 4];
+  return r;
+}
+
+/// Sum over the four nodes, component by component: nodes 0 + 2, 1 + 3, then both.
+template <class Real>
+inline Quad<Real> fold(const Lane<Real>& a) {
+  Real s[kLanes];
+  a.store(s);
+  Quad<Real> r;
+  for (int k = 0; k < 4; ++k) r.v[k] = (s[k] + s[8 + k]) + (s[4 + k] + s[12 + k]);
+  return r;
+}
+
+}  // namespace lather::LATHER_LEVEL

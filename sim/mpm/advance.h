@@ -1,0 +1,84 @@
+#pragma once
+
+// Positions after a step, and a check of the state. Compiled per kernel level.
+
+#include "sim/mpm/tile.h"
+
+namespace lather::LATHER_LEVEL {
+
+/// x += dt v on one axis of a tile, in fixed point [Foam E.3 step 14, Algorithm 17].
+///
+/// The displacement is rounded to quanta as floor(d + phase) with the same phase for all points of a step,
+/// the phases of successive steps being equidistributed (multiples of the golden ratio). So even a point that
+/// moves a fraction of a quantum per step travels as far as it should, within a quantum or two for good; a
+/// point at rest stays; a rigid translation stays rigid. `cells` must lie in [-1, 1].
+template <class Real, int Dim>
+inline void move(const Tile<Real, Dim>& tile, int axis, const Real* cells, Real phase) {
+  using Word = typename FixedPoint<Real>::Word;
+  constexpr int bits = FixedPoint<Real>::kBits;
+  constexpr Real kQuanta = Real(std::int64_t{1} << bits);
+  Word* fraction = tile.template field<Word>(Field::kFraction, axis);
+  auto* cell = tile.template field<std::int16_t>(Field::kCell, axis);
+  for (int k = 0; k < kLanes; ++k) {
+    const Real d = cells[k] * kQuanta + phase;
+    Word quanta = static_cast<Word>(d);
+    quanta -= static_cast<Real>(quanta) > d ? 1 : 0;  // floor
+    const Word sum = fraction[k] + quanta;
+    cell[k] = static_cast<std::int16_t>(cell[k] + (sum >> bits));
+    fraction[k] = sum & ((Word{1} << bits) - 1);
+  }
+}
+
+template <class Real, int Dim>
+mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::StepConstants<Real>& step) {
+  const Real to_cells = step.dt / step.cell;
+  Lane<Real> largest(Real(0));
+  Lane<Real> fastest(Real(0));
+  Lane<Real> suspect(Real(0));  // x - x is 0 for finite x only; no maximum can hide a NaN here
+  Lane<Real> smallest(Real(1));
+  for (int first = 0; first < points.count; first += kLanes) {
+    const Tile<Real, Dim> tile{
+        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    Lane<Real> speed_squared(Real(0));
+    for (int a = 0; a < Dim; ++a) {
+      const Lane<Real> v = tile.lane(Field::kVelocity, a);
+      const Lane<Real> d = v * to_cells;
+      suspect += v - v;
+      speed_squared += v * v;
+      largest = max(abs(d), largest);
+      // A runaway point is reported by the caller; until then it must not leave the buffer, so its move is
+      // capped.
+      const Lane<Real> one(Real(1));
+      const Lane<Real> capped = select(abs(d) <= one, d, Lane<Real>(Real(0)));
+      Real cells[kLanes];
+      capped.store(cells);
+      move(tile, a, cells, step.phase);
+    }
+    const Lane<Real> j = tile.lane(Field::kVolumeChange);
+    suspect += j - j;
+    for (int c = 0; c < Tile<Real, Dim>::kStrainComponents; ++c) {
+      const Lane<Real> b = tile.lane(Field::kElasticStrain, c);
+      suspect += b - b;
+    }
+    smallest = min(j + Real(1), smallest);
+    fastest = max(speed_squared, fastest);
+  }
+  mpm::BlockExtremes out;
+  Real l[kLanes];
+  Real f[kLanes];
+  Real s[kLanes];
+  Real j[kLanes];
+  largest.store(l);
+  fastest.store(f);
+  suspect.store(s);
+  smallest.store(j);
+  for (int k = 0; k < kLanes; ++k) {
+    if (l[k] > out.largest_cells) out.largest_cells = l[k];
+    if (f[k] > out.speed_squared) out.speed_squared = f[k];
+    out.finite = out.finite && s[k] == Real(0);
+    out.collapsed = out.collapsed || j[k] <= Real(0);
+  }
+  return out;
+}
+
+}  // namespace lather::LATHER_LEVEL

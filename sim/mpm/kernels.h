@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim/material/herschel_bulkley_constants.h"
+#include "sim/plan/tile_layout.h"
+
+/// The border between the solver and its kernels, which are compiled once per instruction set: plain structs
+/// and pointers, no Eigen type, no standard container. A kernel works on one block on one thread.
+///
+/// Grid: blocks of 4^dim nodes; a node is a quad of four reals, (mass, x, y, z), rows run along the last
+/// axis, so that a row of a block is 16 consecutive reals. A block's points reach nodes from two below its
+/// first to two beyond its last: the block buffer, 8^dim nodes.
+namespace lather::mpm {
+
+inline constexpr int kBlockWidth = 4;   ///< nodes per axis of a grid block
+inline constexpr int kBufferWidth = 8;  ///< nodes per axis of a block buffer
+inline constexpr int kBufferBelow = 2;  ///< of them below the block's first node
+inline constexpr int kQuad = 4;         ///< reals per node
+inline constexpr int kMaxMaterials = 64;
+
+constexpr int power(int base, int exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+constexpr int block_nodes(int dim) {
+  return power(kBlockWidth, dim);
+}
+constexpr int block_reals(int dim) {
+  return kQuad * block_nodes(dim);
+}
+/// One row more than the nodes need: quadratic rows are read four wide with a zero weight at the end.
+constexpr int buffer_reals(int dim) {
+  return kQuad * (power(kBufferWidth, dim) + kBlockWidth);
+}
+constexpr int neighbours(int dim) {
+  return power(3, dim);
+}
+
+/// One material's constants in the run's precision.
+template <class Real>
+struct MaterialConstants {
+  Real mass;    ///< of each point, kg
+  Real volume;  ///< of each point at rest, m^3
+  HerschelBulkleyConstants<Real> law;
+};
+
+/// One material's points in one block.
+template <class Real>
+struct BlockPoints {
+  std::byte* tiles;
+  std::int32_t count;  ///< points; tiles = ceil(count / 16)
+  const TileLayout* layout;
+  const MaterialConstants<Real>* material;
+};
+
+/// What all blocks share in a step.
+template <class Real>
+struct StepConstants {
+  Real dt;          ///< s
+  Real cell;        ///< h, m
+  Real gravity[3];  ///< m/s^2
+  Real flip;        ///< alpha of this step: share of FLIP against PIC
+  Real phase;       ///< of rounding positions, in [0, 1): see advance()
+};
+
+/// A block's place: index of its first node per axis.
+struct BlockPlace {
+  std::int32_t first_node[3];
+};
+
+/// What advance() saw of a block.
+struct BlockExtremes {
+  double largest_cells = 0;  ///< largest |v| dt / h along an axis
+  double speed_squared = 0;  ///< largest, (m/s)^2
+  bool finite = true;        ///< of every velocity, J and strain
+  bool collapsed = false;    ///< some J <= 0
+};
+
+/// Where the parts of a step spend time; kernels add nothing here, their caller does.
+template <class Real>
+struct Kernels {
+  /// [1. rasterize, 3. grid forces] Adds the points of one material to the block buffers `momentum` (m, p)
+  /// and, with FLIP, `force` (0, f); with APIC the force's impulse dt f goes into `momentum` and `force` is
+  /// not touched.
+  void (*scatter)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&, Real* momentum,
+                  Real* force);
+
+  /// Sums the block buffers around a grid block in a fixed order. `buffers[n]` is the buffer of the block at
+  /// offset n (last axis fastest, each -1 … 1), null where there is none.
+  void (*reduce)(const Real* const* buffers, Real* node);
+
+  /// [5. update grid velocities] node: (m, p) -> (m, v*); increment: (0, f) -> (0, v* - v) with FLIP, else
+  /// not touched.
+  void (*update_grid)(const StepConstants<Real>&, Real* node, Real* increment);
+
+  /// Copies the nodes around a block from the grid blocks `blocks[n]` into a buffer.
+  void (*collect)(const Real* const* blocks, Real* buffer);
+
+  /// [7. deformation, 9. velocities, 10. plastic flow] of one material's points from the buffers of (m, v*),
+  /// (0, v* - v).
+  void (*gather)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&,
+                 const Real* velocity, const Real* increment);
+
+  /// [14. positions] x += dt v, and a check of the state.
+  BlockExtremes (*advance)(const BlockPoints<Real>&, const StepConstants<Real>&);
+};
+
+/// The law at single points, for tests and the rheometer.
+template <class Real>
+struct PointKernels {
+  /// s - sqrt(2/3) sigma_Y after the return mapping, for n points with excess_pre = s_pre - sqrt(2/3)
+  /// sigma_Y.
+  void (*plastic_excess)(const HerschelBulkleyConstants<Real>&, const Real* excess_pre, const Real* two_mu_dt,
+                         int n, Real* excess);
+  /// The same by the scalar twin of the wide kernel.
+  void (*plastic_excess_scalar)(const HerschelBulkleyConstants<Real>&, const Real* excess_pre,
+                                const Real* two_mu_dt, int n, Real* excess);
+  /// One step of the law at one point: `state` = (J - 1, B xx yy zz xy xz yz), `A` = dt grad v row by row.
+  /// Returns the equivalent plastic strain of the step.
+  Real (*law_step)(const HerschelBulkleyConstants<Real>&, const Real* A, Real dt, Real* state);
+  /// The same with 16 lanes, all alike; lane `lane` is returned.
+  Real (*law_step_wide)(const HerschelBulkleyConstants<Real>&, const Real* A, Real dt, Real* state, int lane);
+  /// Kirchhoff stress xx yy zz xy xz yz of `state`, Pa.
+  void (*stress)(const HerschelBulkleyConstants<Real>&, const Real* state, Real* tau);
+  /// Kernel weights at fraction f of a cell: 4 weights and 4 derivatives (per cell), cubic or quadratic.
+  /// Returns the first node's offset from the cell.
+  int (*weights)(bool cubic, Real fraction, Real* weight, Real* derivative);
+};
+
+/// Kernels of one level; picked by dimension (2, 3), kernel order and transfer.
+template <class Real>
+struct KernelTable {
+  Kernels<Real> step[2][2][2];  ///< [dimension - 2][cubic][apic]
+  PointKernels<Real> point;
+};
+
+}  // namespace lather::mpm

@@ -1,0 +1,50 @@
+#include <cmath>
+#include <limits>
+
+#include "sim/mpm/step.h"
+
+namespace lather::mpm {
+namespace {
+
+CellBounds cell_bounds(const Scene& scene) {
+  CellBounds b;
+  b.dimension = scene.dimension;
+  b.periodic = scene.domain.periodic;
+  b.open = scene.domain.boundary == Boundary::kOpen;
+  const Vec3 extent = scene.domain.box.extent();
+  for (int a = 0; a < scene.dimension; ++a)
+    b.cells[static_cast<std::size_t>(a)] =
+        static_cast<std::int32_t>(std::ceil(extent[a] / scene.spacing - 1e-6));
+  for (int a = scene.dimension; a < 3; ++a) b.periodic[static_cast<std::size_t>(a)] = false;
+  return b;
+}
+
+template <class Real>
+MaterialConstants<Real> material_constants(const Scene& scene, const HerschelBulkleyParameters& law) {
+  const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
+  return {static_cast<Real>(law.density * volume),
+          static_cast<Real>(volume),
+          {static_cast<Real>(law.bulk_modulus), static_cast<Real>(law.shear_modulus),
+           static_cast<Real>(std::sqrt(2.0 / 3.0) * law.yield_stress), static_cast<Real>(law.viscosity),
+           static_cast<Real>(law.flow_index), static_cast<Real>(1 / law.flow_index),
+           std::numeric_limits<Real>::epsilon()}};
+}
+
+}  // namespace
+
+template <class Real>
+Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(plan.scene)), walls(plan.scene) {
+  const bool cubic = scene.numerics.kernel == Kernel::kCubic;
+  const bool apic = scene.numerics.transfer == Transfer::kApic;
+  kernels =
+      kernel_table<Real>(plan.choices.kernel_level).step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
+  for (const Material& m : scene.materials)
+    materials.push_back(material_constants<Real>(scene, m.herschel_bulkley));
+  // See kHomeShift. A little less, for the rounding of sums of displacements.
+  drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;
+}
+
+template struct Model<float>;
+template struct Model<double>;
+
+}  // namespace lather::mpm

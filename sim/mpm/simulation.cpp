@@ -1,0 +1,185 @@
+#include "sim/mpm/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/mpm/checkpoint.h"
+#include "sim/mpm/density.h"
+#include "sim/mpm/snapshot.h"
+#include "sim/plan/planned_fields.h"
+#include "sim/plan/seed.h"
+#include "sim/plan/step_bound.h"
+#include "sim/report/measure.h"
+
+namespace lather::mpm {
+namespace {
+
+std::string with_unit(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.4g%s%s", value, *unit != 0 ? " " : "", unit);
+  return text;
+}
+
+template <class Real>
+class MpmSimulation final : public Simulation {
+ public:
+  MpmSimulation(const Plan& plan, int threads)
+      : plan_(plan), threads_(threads), model_(plan), stepper_(model_, threads), snapshot_(plan.scene) {
+    const Scene& scene = plan.scene;
+    const std::vector<Field> fields = planned_fields(scene);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+      state_.sets.emplace_back(scene.dimension, fields, scene.domain.box.min, scene.spacing);
+    seed_points(scene, [&](const Seed& s) {
+      state_.sets[s.material].add(s.position, s.velocity, s.velocity_gradient, s.id);
+      state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
+    });
+    report_.scene_name = scene.name;
+    report_.scene_hash = scene_hash(scene);
+    report_.version = version();
+    report_.kernel_level = to_string(plan.choices.kernel_level);
+    report_.threads = threads;
+    report_.warnings = plan.warnings;
+    measure(0);
+  }
+
+  bool step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) override {
+    if (index <= measured_frame_) return true;
+    const double target = index / plan_.scene.frame_rate;
+    while (state_.time < target) {
+      const double left = target - state_.time;
+      const double steps = steps_for(left, step_limit());
+      step(left / steps);
+      if (steps == 1) state_.time = target;
+      if (!heartbeat({index, state_.time, last_step_, state_.step})) return false;
+    }
+    measure(index);
+    return true;
+  }
+
+  [[nodiscard]] Frame frame() const override { return snapshot_.take(state_, plan_, measured_frame_); }
+  [[nodiscard]] const Report& report() const override { return report_; }
+
+  [[nodiscard]] std::string save() const override {
+    return write_checkpoint(state_, report_, measured_frame_, checkpoint_key());
+  }
+  void restore(const std::string& bytes) override {
+    read_checkpoint(bytes, checkpoint_key(), state_, report_, measured_frame_);
+    stepper_.forget_grid();
+  }
+
+ private:
+  [[nodiscard]] std::string checkpoint_key() const {
+    return report_.scene_hash + ' ' + report_.kernel_level + ' ' + report_.version;
+  }
+
+  /// The step of this moment: the planned one, shorter while points are fast.
+  [[nodiscard]] double step_limit() const {
+    const Scene& s = plan_.scene;
+    const double planned = planned_step(s);
+    if (s.numerics.time_step > 0 || state_.max_speed == 0) return planned;
+    constexpr double kMostCells = 0.3;  // a point moves at most this far in an automatic step
+    return std::min(planned, kMostCells * s.spacing / state_.max_speed);
+  }
+
+  void step(double dt) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t points = point_count();
+    const double time = state_.time;
+    const std::uint64_t step = state_.step;
+    const StepResult seen = stepper_.step(state_, dt);
+    check(seen, step, time, dt);
+    last_step_ = dt;
+    count_removed(seen.dropped);
+    report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
+    report_.largest_time_step = std::max(report_.largest_time_step, dt);
+    report_.largest_cfl = std::max(report_.largest_cfl, seen.largest_cells);
+    report_.steps = state_.step;
+    report_.point_steps += points;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    report_.wall_seconds += took.count();
+  }
+
+  /// Throws when the state is no longer sound.
+  void check(const StepResult& seen, std::uint64_t step, double time, double dt) const {
+    SimulationError::Details d;
+    d.step = static_cast<long long>(step);
+    d.time = time;
+    if (!seen.finite) {
+      d.kind = "non-finite";
+      d.quantity = "a point's velocity, J or elastic strain";
+      d.value = "not a finite number";
+    } else if (seen.collapsed) {
+      d.kind = "runaway";
+      d.quantity = "a point's volume ratio J";
+      d.value = "zero or negative";
+    } else if (seen.largest_cells > 1) {
+      d.kind = "runaway";
+      d.quantity = "a point's speed";
+      d.value =
+          with_unit(seen.max_speed, "m/s") + " (" + with_unit(seen.largest_cells, "cells in one step") + ")";
+    } else {
+      return;
+    }
+    const Numerics& n = plan_.scene.numerics;
+    d.advice = n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") +
+                                     "; the step bound is " + with_unit(plan_.step_bound, "s") + "."
+                               : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
+    throw SimulationError(d);
+  }
+
+  void count_removed(std::uint64_t points) {
+    report_.points_removed += points;
+    // All points of a material weigh the same; what is gone is what is no longer there.
+    double present = 0;
+    for (std::size_t m = 0; m < state_.sets.size(); ++m)
+      present += static_cast<double>(state_.sets[m].size()) * static_cast<double>(model_.materials[m].mass);
+    if (points > 0 && !report_.frames.empty()) report_.mass_removed = report_.frames.front().mass - present;
+  }
+
+  [[nodiscard]] std::uint64_t point_count() const {
+    std::uint64_t n = 0;
+    for (const auto& set : state_.sets) n += set.size();
+    return n;
+  }
+
+  void measure(int index) {
+    count_removed(stepper_.sort_when_drifted(state_));
+    FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
+    measure_density(stepper_, state_, model_, m);
+    m.frame = index;
+    m.time = state_.time;
+    m.step = state_.step;
+    report_.frames.push_back(m);
+    measured_frame_ = index;
+    report_.simulated_time = state_.time;
+    if (report_.wall_seconds > 0)
+      report_.point_steps_per_second = static_cast<double>(report_.point_steps) / report_.wall_seconds;
+    report_.stages.clear();
+    for (const std::string& name : plan_.stages)
+      for (int s = 0; s < kStageCount; ++s)
+        if (name == kStageNames[static_cast<std::size_t>(s)])
+          report_.stages.push_back({name, stepper_.clock().seconds(static_cast<Stage>(s))});
+  }
+
+  Plan plan_;
+  int threads_;
+  Model<Real> model_;
+  State<Real> state_;
+  Stepper<Real> stepper_;
+  Snapshot snapshot_;
+  Report report_;
+  int measured_frame_ = -1;
+  double last_step_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> create_simulation(const Plan& plan, int threads) {
+  if (plan.scene.numerics.precision == Precision::kDouble)
+    return std::make_unique<MpmSimulation<double>>(plan, threads);
+  return std::make_unique<MpmSimulation<float>>(plan, threads);
+}
+
+}  // namespace lather::mpm

@@ -1,0 +1,86 @@
+#include "sim/mpm/snapshot.h"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/plan/seed.h"
+
+namespace lather::mpm {
+namespace {
+
+/// Where a point stands in its set.
+struct Slot {
+  std::uint32_t id;
+  std::uint32_t lane;
+  std::size_t tile;
+};
+
+template <class Real>
+std::vector<Slot> slots_by_id(const ParticleSet<Real>& set) {
+  std::vector<Slot> slots;
+  slots.reserve(set.size());
+  for (std::size_t t = 0; t < set.tiles(); ++t)
+    for (std::uint32_t lane = 0; lane < kTile; ++lane)
+      if (const std::uint32_t id = set.template values<std::uint32_t>(t, Field::kId)[lane]; id != kNoPoint)
+        slots.push_back({id, lane, t});
+  std::sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.id < b.id; });
+  return slots;
+}
+
+std::array<float, 3> as_float(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+template <class Real>
+double scalar_of(const ParticleSet<Real>& set, const Slot& s, const std::string& name) {
+  const auto lane = static_cast<int>(s.lane);
+  if (name == "speed") return set.velocity(s.tile, lane).norm();
+  if (name == "J")
+    return 1 + static_cast<double>(set.template values<Real>(s.tile, Field::kVolumeChange)[lane]);
+  return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
+}
+
+}  // namespace
+
+Snapshot::Snapshot(const Scene& scene) {
+  const double detail = std::max(scene.spacing, scene.domain.box.extent().maxCoeff() / 100);
+  for (const Obstacle& o : scene.obstacles)
+    meshes_.push_back(
+        o.visible ? std::make_shared<const TriangleMesh>(tessellate(*o.shape, scene.domain.box, detail))
+                  : nullptr);
+}
+
+template <class Real>
+Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) const {
+  const Scene& scene = plan.scene;
+  Frame f;
+  f.index = index;
+  f.time = state.time;
+  f.dimension = scene.dimension;
+  f.point_radius = 0.5 * point_distance(scene);
+  f.domain = scene.domain.box;
+  for (const std::string& name : plan.scalars)
+    f.points.scalars.push_back({name, name == "speed" ? "m/s" : "1", {}});
+  for (std::size_t m = 0; m < state.sets.size(); ++m) {
+    f.material_names.push_back(scene.materials[m].name);
+    for (const Slot& s : slots_by_id(state.sets[m])) {
+      const auto lane = static_cast<int>(s.lane);
+      f.points.position.push_back(as_float(state.sets[m].position(s.tile, lane)));
+      f.points.velocity.push_back(as_float(state.sets[m].velocity(s.tile, lane)));
+      f.points.id.push_back(s.id);
+      f.points.material.push_back(static_cast<std::uint8_t>(m));
+      for (PointScalar& scalar : f.points.scalars)
+        scalar.values.push_back(static_cast<float>(scalar_of(state.sets[m], s, scalar.name)));
+    }
+  }
+  for (std::size_t o = 0; o < meshes_.size(); ++o)
+    if (meshes_[o])
+      f.obstacles.push_back(
+          {scene.obstacles[o].name, meshes_[o], pose_at(scene.obstacles[o].motion, f.time)});
+  return f;
+}
+
+template Frame Snapshot::take(const State<float>&, const Plan&, int) const;
+template Frame Snapshot::take(const State<double>&, const Plan&, int) const;
+
+}  // namespace lather::mpm

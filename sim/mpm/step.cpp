@@ -1,0 +1,259 @@
+#include "sim/mpm/step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/math/parallel.h"
+#include "sim/plan/step_bound.h"
+
+namespace lather::mpm {
+
+template <class Real>
+StepResult Stepper<Real>::step(State<Real>& state, double dt) {
+  const std::uint64_t dropped = sort_when_drifted(state);
+  const StepConstants<Real> constants = this->constants(state, dt);
+  obstacles_.place(state.time, dt);
+  rasterize(state, constants, model_.materials);           // 1, 3
+  update_grid(constants);                                  // 5, 6
+  StepResult result = update_particles(state, constants);  // 7, 9, 10, 13, 14
+  result.dropped = dropped;
+  state.drift += result.largest_cells;
+  state.max_speed = result.max_speed;
+  state.time += dt;
+  ++state.step;
+  return result;
+}
+
+template <class Real>
+Stepper<Real>::Stepper(const Model<Real>& model, int threads)
+    : model_(model),
+      threads_(threads),
+      obstacles_(model.scene, model.scene.spacing),
+      grid_(model.scene.dimension, model.scene.numerics.transfer == Transfer::kApic),
+      clock_(threads),
+      scratch_(static_cast<std::size_t>(threads)),
+      near_(static_cast<std::size_t>(threads)) {
+  for (auto& s : scratch_) s.resize(2 * static_cast<std::size_t>(buffer_reals(model.scene.dimension)));
+}
+
+template <class Real>
+std::uint64_t Stepper<Real>::sort_when_drifted(State<Real>& state) {
+  // A grid that is not there yet (after a restore) is rebuilt from the ranges as they were saved.
+  const bool sort = !state.sorted || state.drift > model_.drift_margin;
+  if (!sort && !grid_.point_blocks().empty()) return 0;
+  std::uint64_t dropped = 0;
+  clock_.time(Stage::kSort, [&] {
+    if (sort) {
+      for (auto& set : state.sets) dropped += set.sort(model_.bounds, threads_);
+      state.sorted = true;
+      state.drift = 0;
+    }
+    std::vector<const std::vector<BlockRange>*> ranges;
+    for (const auto& set : state.sets) ranges.push_back(&set.ranges());
+    grid_.rebuild(ranges, model_.bounds, threads_);
+  });
+  return dropped;
+}
+
+template <class Real>
+StepConstants<Real> Stepper<Real>::constants(const State<Real>& state, double dt) const {
+  const Scene& s = model_.scene;
+  StepConstants<Real> c;
+  c.dt = static_cast<Real>(dt);
+  c.cell = static_cast<Real>(s.spacing);
+  for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<Real>(s.gravity[a]);
+  c.flip = static_cast<Real>(flip_share(s.numerics, dt));
+  // Multiples of the golden ratio modulo 1, to 20 bits so that a float holds them below 1 (see move()).
+  c.phase = static_cast<Real>(static_cast<double>((state.step + 1) * 0x9e3779b97f4a7c15U >> 44U) * 0x1p-20);
+  return c;
+}
+
+template <class Real>
+BlockPoints<Real> Stepper<Real>::points(State<Real>& state, std::size_t set, std::int32_t range,
+                                        const std::vector<MaterialConstants<Real>>& materials) const {
+  ParticleSet<Real>& s = state.sets[set];
+  const BlockRange& r = s.ranges()[static_cast<std::size_t>(range)];
+  return {s.tile(static_cast<std::size_t>(r.first_tile)), r.count, &s.layout(), &materials[set]};
+}
+
+template <class Real>
+void Stepper<Real>::rasterize(State<Real>& state, const StepConstants<Real>& step,
+                              const std::vector<MaterialConstants<Real>>& materials) {
+  parallel_for(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), 1, [&](std::int64_t index) {
+    const auto b = static_cast<std::size_t>(index);
+    clock_.time(Stage::kRasterize, [&] {
+      std::fill_n(grid_.momentum_buffer(b), grid_.buffer_stride(), Real(0));
+      const BlockPlace place = BlockGrid<Real>::place(grid_.point_blocks()[b].block);
+      for (std::size_t s = 0; s < state.sets.size(); ++s)
+        if (const std::int32_t range = grid_.range_of(s, b); range >= 0)
+          model_.kernels.scatter(points(state, s, range, materials), place, step, grid_.momentum_buffer(b),
+                                 grid_.force_buffer(b));
+    });
+  });
+}
+
+template <class Real>
+void Stepper<Real>::update_grid(const StepConstants<Real>& step) {
+  parallel_for(threads_, static_cast<std::int64_t>(grid_.grid_blocks().size()), 4, [&](std::int64_t index) {
+    const auto g = static_cast<std::size_t>(index);
+    clock_.time(Stage::kReduce, [&] {
+      const Real* momentum[27];
+      const Real* force[27];
+      for (int n = 0; n < neighbours(model_.scene.dimension); ++n) {
+        const std::int32_t b = grid_.grid_blocks()[g].points[static_cast<std::size_t>(n)];
+        momentum[n] = b < 0 ? nullptr : grid_.momentum_buffer(static_cast<std::size_t>(b));
+        force[n] = b < 0 ? nullptr : grid_.force_buffer(static_cast<std::size_t>(b));
+      }
+      model_.kernels.reduce(momentum, grid_.node(g));
+      if (grid_.increment(g) != nullptr) model_.kernels.reduce(force, grid_.increment(g));
+    });
+    clock_.time(Stage::kGridVelocities,
+                [&] { model_.kernels.update_grid(step, grid_.node(g), grid_.increment(g)); });
+    clock_.time(Stage::kGridCollisions,
+                [&] { resolve_grid_collisions(g, near_[static_cast<std::size_t>(thread_index())]); });
+  });
+}
+
+template <class Real>
+void Stepper<Real>::resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near) {
+  const Scene& scene = model_.scene;
+  const double h = scene.spacing;
+  const int dim = scene.dimension;
+  const BlockPlace place = BlockGrid<Real>::place(grid_.grid_blocks()[block].block);
+  Vec3 low = Vec3::Zero();
+  Vec3 high = Vec3::Zero();
+  for (int a = 0; a < dim; ++a) {
+    low[a] = scene.domain.box.min[a] + place.first_node[a] * h;
+    high[a] = low[a] + (kBlockWidth - 1) * h;
+  }
+  obstacles_.find_near(0.5 * (low + high), 0.5 * (high - low).norm() + 1e-6 * h, near);
+  const bool walls = model_.walls.near(low, high, 1e-6 * h);
+  if (near.empty() && !walls) return;
+  Real* nodes = grid_.node(block);
+  Real* increments = grid_.increment(block);
+  for (int i = 0; i < block_nodes(dim); ++i) {
+    Real* q = nodes + i * kQuad;
+    if (q[0] == Real(0)) continue;
+    Vec3 x = low;
+    Vec3 v = Vec3::Zero();
+    int rest = i;
+    for (int a = dim - 1; a >= 0; --a) {
+      x[a] += (rest % kBlockWidth) * h;
+      rest /= kBlockWidth;
+      v[a] = static_cast<double>(q[1 + a]);
+    }
+    bool changed = obstacles_.resolve(near, x, v);
+    if (walls) changed = model_.walls.resolve(x, v) || changed;
+    if (!changed) continue;
+    for (int a = 0; a < dim; ++a) {
+      if (increments != nullptr) increments[i * kQuad + 1 + a] += static_cast<Real>(v[a]) - q[1 + a];
+      q[1 + a] = static_cast<Real>(v[a]);
+    }
+  }
+}
+
+template <class Real>
+StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstants<Real>& step) {
+  const auto update_block = [&](std::int64_t index) {
+    const auto b = static_cast<std::size_t>(index);
+    const PointBlock& block = grid_.point_blocks()[b];
+    const BlockPlace place = BlockGrid<Real>::place(block.block);
+    const auto thread = static_cast<std::size_t>(thread_index());
+    Real* velocity = scratch_[thread].data();
+    Real* increment = velocity + buffer_reals(model_.scene.dimension);
+    clock_.time(Stage::kCollect, [&] {
+      const Real* nodes[27];
+      const Real* increments[27];
+      for (int n = 0; n < neighbours(model_.scene.dimension); ++n) {
+        const auto g = static_cast<std::size_t>(block.grid[static_cast<std::size_t>(n)]);
+        nodes[n] = grid_.node(g);
+        increments[n] = grid_.increment(g);
+      }
+      model_.kernels.collect(nodes, velocity);
+      if (increments[0] != nullptr) model_.kernels.collect(increments, increment);
+    });
+    StepResult seen;
+    for (std::size_t s = 0; s < state.sets.size(); ++s) {
+      const std::int32_t range = grid_.range_of(s, b);
+      if (range < 0) continue;
+      const BlockPoints<Real> p = points(state, s, range, model_.materials);
+      clock_.time(Stage::kUpdateParticles,
+                  [&] { model_.kernels.gather(p, place, step, velocity, increment); });
+      clock_.time(Stage::kParticleCollisions, [&] {
+        resolve_particle_collisions(state.sets[s], state.sets[s].ranges()[static_cast<std::size_t>(range)],
+                                    near_[thread]);
+      });
+      clock_.time(Stage::kPositions, [&] {
+        const BlockExtremes e = model_.kernels.advance(p, step);
+        seen.largest_cells = std::max(seen.largest_cells, e.largest_cells);
+        seen.max_speed = std::max(seen.max_speed, std::sqrt(e.speed_squared));
+        seen.finite = seen.finite && e.finite;
+        seen.collapsed = seen.collapsed || e.collapsed;
+      });
+    }
+    return seen;
+  };
+  return parallel_fold(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), StepResult{},
+                       update_block, [](StepResult& sum, const StepResult& part) {
+                         sum.largest_cells = std::max(sum.largest_cells, part.largest_cells);
+                         sum.max_speed = std::max(sum.max_speed, part.max_speed);
+                         sum.finite = sum.finite && part.finite;
+                         sum.collapsed = sum.collapsed || part.collapsed;
+                       });
+}
+
+template <class Real>
+void Stepper<Real>::resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
+                                                std::vector<std::uint32_t>& near) {
+  const Scene& scene = model_.scene;
+  const double h = scene.spacing;
+  const int dim = scene.dimension;
+  Vec3 low = Vec3::Zero();
+  Vec3 high = Vec3::Zero();
+  for (int a = 0; a < dim;
+       ++a) {  // a point may be up to half a cell, plus its drift, outside its block's cells
+    low[a] = scene.domain.box.min[a] + (range.block[static_cast<std::size_t>(a)] * kBlockWidth - 1.5) * h;
+    high[a] = low[a] + (kBlockWidth + 2) * h;
+  }
+  obstacles_.find_near(0.5 * (low + high), 0.5 * (high - low).norm(), near);
+  const bool walls = model_.walls.near(low, high, 0);
+  if (near.empty() && !walls) return;
+  for (int i = 0; i < range.count; ++i) {
+    const auto t = static_cast<std::size_t>(range.first_tile + i / kTile);
+    const int lane = i % kTile;
+    const Vec3 x = set.position(t, lane);
+    Vec3 v = set.velocity(t, lane);
+    bool changed = obstacles_.resolve(near, x, v);
+    if (walls) changed = model_.walls.resolve(x, v) || changed;
+    if (!changed) continue;
+    for (int a = 0; a < dim; ++a)
+      set.template values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(v[a]);
+  }
+}
+
+template <class Real>
+void Stepper<Real>::rasterize_volume_fraction(State<Real>& state) {
+  std::vector<MaterialConstants<Real>> as_volume = model_.materials;
+  for (auto& m : as_volume) m.mass = m.volume;
+  rasterize(state, constants(state, 0), as_volume);
+  parallel_for(threads_, static_cast<std::int64_t>(grid_.grid_blocks().size()), 16, [&](std::int64_t index) {
+    const auto g = static_cast<std::size_t>(index);
+    const Real* buffers[27];
+    for (int n = 0; n < neighbours(model_.scene.dimension); ++n) {
+      const std::int32_t b = grid_.grid_blocks()[g].points[static_cast<std::size_t>(n)];
+      buffers[n] = b < 0 ? nullptr : grid_.momentum_buffer(static_cast<std::size_t>(b));
+    }
+    model_.kernels.reduce(buffers, grid_.node(g));
+  });
+}
+
+template <class Real>
+double Stepper<Real>::volume_fraction(std::size_t block, int node) const {
+  return static_cast<double>(grid_.node(block)[node * kQuad]) /
+         std::pow(model_.scene.spacing, model_.scene.dimension);
+}
+
+template class Stepper<float>;
+template class Stepper<double>;
+
+}  // namespace lather::mpm

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/collide/obstacles.h"
+#include "sim/mpm/block_grid.h"
+#include "sim/mpm/levels.h"
+#include "sim/particles/particle_set.h"
+#include "sim/report/stage_clock.h"
+
+namespace lather::mpm {
+
+/// What never changes during a run: the scene as the step needs it, in the run's precision.
+template <class Real>
+struct Model {
+  explicit Model(const Plan& plan);
+
+  Scene scene;
+  Kernels<Real> kernels;
+  std::vector<MaterialConstants<Real>> materials;
+  CellBounds bounds;
+  Walls walls;
+  double drift_margin;  ///< cells that a point may move between two sorts
+};
+
+/// What a checkpoint saves.
+template <class Real>
+struct State {
+  std::vector<ParticleSet<Real>> sets;  ///< one a material
+  std::uint64_t step = 0;               ///< steps done
+  double time = 0;                      ///< s
+  double drift = 0;                     ///< cells, most that any point can have moved since the last sort
+  double max_speed = 0;                 ///< m/s, of any point
+  bool sorted = false;
+};
+
+/// What a step saw.
+struct StepResult {
+  double largest_cells = 0;  ///< largest |v| dt / h of any point along an axis
+  double max_speed = 0;      ///< m/s
+  bool finite = true;
+  bool collapsed = false;     ///< some J <= 0
+  std::uint64_t dropped = 0;  ///< points that left an open domain
+};
+
+/// One explicit step of the Material Point Method.
+template <class Real>
+class Stepper {
+ public:
+  Stepper(const Model<Real>& model, int threads);
+
+  /// Advances `state` by dt (s). The result says whether the state is still sound; the caller decides.
+  StepResult step(State<Real>& state, double dt);
+
+  /// Sorts points and rebuilds the grid if points may have left their blocks' buffers. Returns points
+  /// dropped.
+  std::uint64_t sort_when_drifted(State<Real>& state);
+
+  /// Drops the grid, so that the next step makes it anew; after a restore.
+  void forget_grid() {
+    grid_ = BlockGrid<Real>(model_.scene.dimension, model_.scene.numerics.transfer == Transfer::kApic);
+  }
+
+  /// Sum of w V_p over h^dim at every node of grid block g (block_nodes values), from the state as it stands:
+  /// 1 inside undisturbed material. Call after sort_when_drifted().
+  void rasterize_volume_fraction(State<Real>& state);
+  [[nodiscard]] const BlockGrid<Real>& grid() const { return grid_; }
+  [[nodiscard]] double volume_fraction(std::size_t block, int node) const;
+
+  [[nodiscard]] const StageClock& clock() const { return clock_; }
+  [[nodiscard]] std::size_t bytes() const { return grid_.bytes(); }
+
+ private:
+  [[nodiscard]] StepConstants<Real> constants(const State<Real>& state, double dt) const;
+  void rasterize(State<Real>& state, const StepConstants<Real>& step,
+                 const std::vector<MaterialConstants<Real>>& materials);
+  void update_grid(const StepConstants<Real>& step);
+  void resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near);
+  StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
+  void resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
+                                   std::vector<std::uint32_t>& near);
+  [[nodiscard]] BlockPoints<Real> points(State<Real>& state, std::size_t set, std::int32_t range,
+                                         const std::vector<MaterialConstants<Real>>& materials) const;
+
+  const Model<Real>& model_;
+  int threads_;
+  Obstacles obstacles_;
+  BlockGrid<Real> grid_;
+  StageClock clock_;
+  std::vector<std::vector<Real>> scratch_;        // per thread: two block buffers
+  std::vector<std::vector<std::uint32_t>> near_;  // per thread
+};
+
+}  // namespace lather::mpm

@@ -1,0 +1,91 @@
+#include "sim/particles/particle_set.h"
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace lather {
+
+template <class Real>
+ParticleSet<Real>::ParticleSet(int dimension, const std::vector<Field>& fields, const Vec3& origin,
+                               double cell)
+    : dimension_(dimension), origin_(origin), cell_(cell), layout_(make_layout<Real>(dimension, fields)) {}
+
+template <class Real>
+void ParticleSet<Real>::add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient,
+                            std::uint32_t id) {
+  const int lane = static_cast<int>(size_ % kTile);
+  const std::size_t t = size_ / kTile;
+  if (lane == 0) lines_.resize(lines_.size() + static_cast<std::size_t>(layout_.stride) / sizeof(Line));
+  for (int a = 0; a < dimension_; ++a) {
+    const double x = (position[a] - origin_[a]) / cell_;
+    const double whole = std::floor(x);
+    constexpr double kQuanta = static_cast<double>(std::int64_t{1} << FixedPoint<Real>::kBits);
+    auto quanta = static_cast<std::int64_t>((x - whole) * kQuanta);
+    if (quanta >= std::int64_t{1} << FixedPoint<Real>::kBits)
+      quanta = (std::int64_t{1} << FixedPoint<Real>::kBits) - 1;
+    values<Word>(t, Field::kFraction, a)[lane] = static_cast<Word>(quanta);
+    values<std::int16_t>(t, Field::kCell, a)[lane] = static_cast<std::int16_t>(whole);
+    values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(velocity[a]);
+    if (layout_.has(Field::kAffine))
+      for (int b = 0; b < dimension_; ++b)
+        values<Real>(t, Field::kAffine, a * dimension_ + b)[lane] =
+            static_cast<Real>(velocity_gradient(a, b));
+  }
+  values<std::uint32_t>(t, Field::kId)[lane] = id;
+  ranges_.clear();
+  ++size_;
+}
+
+template <class Real>
+Vec3 ParticleSet<Real>::position(std::size_t t, int lane) const {
+  constexpr double kQuantum = 1.0 / static_cast<double>(std::int64_t{1} << FixedPoint<Real>::kBits);
+  Vec3 x = Vec3::Zero();
+  for (int a = 0; a < dimension_; ++a) {
+    const double fraction = static_cast<double>(values<Word>(t, Field::kFraction, a)[lane]) * kQuantum;
+    x[a] = origin_[a] + (values<std::int16_t>(t, Field::kCell, a)[lane] + fraction) * cell_;
+  }
+  return x;
+}
+
+template <class Real>
+Vec3 ParticleSet<Real>::velocity(std::size_t t, int lane) const {
+  Vec3 v = Vec3::Zero();
+  for (int a = 0; a < dimension_; ++a) v[a] = static_cast<double>(values<Real>(t, Field::kVelocity, a)[lane]);
+  return v;
+}
+
+template <class Real>
+void ParticleSet<Real>::save(std::string& to) const {
+  const auto put = [&to](const void* from, std::size_t n) { to.append(static_cast<const char*>(from), n); };
+  const std::uint64_t head[4] = {size_, lines_.size(), ranges_.size(),
+                                 static_cast<std::uint64_t>(layout_.stride)};
+  put(head, sizeof head);
+  put(ranges_.data(), ranges_.size() * sizeof(BlockRange));
+  put(lines_.data(), bytes());
+}
+
+template <class Real>
+void ParticleSet<Real>::restore(const char*& from, const char* end) {
+  const auto get = [&](void* to, std::size_t n) {
+    if (static_cast<std::size_t>(end - from) < n) throw std::runtime_error("The checkpoint ends too early.");
+    std::memcpy(to, from, n);
+    from += n;
+  };
+  std::uint64_t head[4];
+  get(head, sizeof head);
+  const auto left = static_cast<std::uint64_t>(end - from);
+  if (head[3] != static_cast<std::uint64_t>(layout_.stride) || head[1] > left / sizeof(Line) ||
+      head[2] > left / sizeof(BlockRange))
+    throw std::runtime_error("The checkpoint was written for other particle fields.");
+  size_ = head[0];
+  lines_.resize(head[1]);
+  ranges_.resize(head[2]);
+  get(ranges_.data(), ranges_.size() * sizeof(BlockRange));
+  get(lines_.data(), bytes());
+}
+
+template class ParticleSet<float>;
+template class ParticleSet<double>;
+
+}  // namespace lather

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/math/vec.h"
+#include "sim/particles/block.h"
+#include "sim/plan/tile_layout.h"
+
+namespace lather {
+
+/// The points of one material, in tiles sorted by block (tile_layout.h, block.h). Grown, sorted and compacted
+/// here only.
+template <class Real>
+class ParticleSet {
+ public:
+  using Word = typename FixedPoint<Real>::Word;
+
+  /// Positions are relative to `origin` in cells of width `cell` (m).
+  ParticleSet(int dimension, const std::vector<Field>& fields, const Vec3& origin, double cell);
+
+  /// Appends a point at rest strain: J = 1, be = I. Call sort() before anything else reads the set.
+  void add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient, std::uint32_t id);
+
+  /// Sorts by block, wraps periodic axes, drops points that left an open domain. Stable, same result for any
+  /// number of threads. Returns how many points were dropped.
+  std::uint64_t sort(const CellBounds& bounds, int threads);
+
+  [[nodiscard]] const std::vector<BlockRange>& ranges() const { return ranges_; }
+  [[nodiscard]] const TileLayout& layout() const { return layout_; }
+  [[nodiscard]] std::size_t tiles() const {
+    return lines_.size() * sizeof(Line) / static_cast<std::size_t>(layout_.stride);
+  }
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::size_t bytes() const { return lines_.size() * sizeof(Line); }
+
+  [[nodiscard]] std::byte* tile(std::size_t t) {
+    return lines_.data()->bytes + t * static_cast<std::size_t>(layout_.stride);
+  }
+  [[nodiscard]] const std::byte* tile(std::size_t t) const {
+    return lines_.data()->bytes + t * static_cast<std::size_t>(layout_.stride);
+  }
+
+  /// Component `c` of `field` in tile `t`: 16 values.
+  template <class T>
+  [[nodiscard]] T* values(std::size_t t, Field field, int c = 0) {
+    return reinterpret_cast<T*>(tile(t) + layout_.offset[static_cast<int>(field)]) + c * kTile;
+  }
+  template <class T>
+  [[nodiscard]] const T* values(std::size_t t, Field field, int c = 0) const {
+    return reinterpret_cast<const T*>(tile(t) + layout_.offset[static_cast<int>(field)]) + c * kTile;
+  }
+
+  [[nodiscard]] Vec3 position(std::size_t t, int lane) const;  ///< m; periodic axes wrapped when last sorted
+  [[nodiscard]] Vec3 velocity(std::size_t t, int lane) const;  ///< m/s
+
+  /// The raw state for a checkpoint, and back.
+  void save(std::string& to) const;
+  void restore(const char*& from, const char* end);
+
+ private:
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  struct Chunk;
+
+  std::uint64_t key_of(std::size_t t, int lane, const CellBounds& bounds);
+  void copy_point(std::byte* to_tile, int to_lane, const std::byte* from_tile, int from_lane) const;
+  void fill_empty_lanes(std::size_t range);
+
+  int dimension_;
+  Vec3 origin_;
+  double cell_;
+  TileLayout layout_;
+  std::vector<Line> lines_;
+  std::vector<BlockRange> ranges_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace lather

@@ -1,0 +1,41 @@
+#include "sim/plan/step_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lather {
+
+double wave_speed(const HerschelBulkleyParameters& law) {
+  return std::sqrt((law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus) / law.density);
+}
+
+double step_bound(const Scene& scene) {
+  double fastest = 0;
+  for (const Body& body : scene.bodies)
+    for (const Material& m : scene.materials)
+      if (m.name == body.material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+  return scene.spacing / fastest;
+}
+
+double planned_step(const Scene& scene) {
+  const Numerics& n = scene.numerics;
+  const double step =
+      n.time_step > 0 ? n.time_step : std::min(n.safety_factor * step_bound(scene), n.max_time_step);
+  return std::min(step, 1 / scene.frame_rate);
+}
+
+double flip_share(const Numerics& numerics, double dt) {
+  return std::pow(numerics.flip_blend, dt / numerics.flip_blend_reference_step);
+}
+
+double blend_viscosity(const Scene& scene, double density, double dt) {
+  if (scene.numerics.transfer == Transfer::kApic) return 0;
+  const double moment = scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25;
+  return density * (1 - flip_share(scene.numerics, dt)) * moment * scene.spacing * scene.spacing / dt;
+}
+
+double steps_for(double span, double step) {
+  return std::max(1.0, std::ceil(span / step * (1 - 1e-9)));
+}
+
+}  // namespace lather

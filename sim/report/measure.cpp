@@ -1,0 +1,140 @@
+#include "sim/report/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/math/parallel.h"
+
+namespace lather {
+namespace {
+
+constexpr std::size_t kChunkTiles = 256;
+
+/// Elastic energy per volume at rest, by parts, Pa. [Foam eq. 1]
+/// (J^2 - 1)/2 - ln J with j = J - 1, without cancellation: j + j^2/2 - log1p(j).
+struct ElasticEnergy {
+  double volume;
+  double shear;
+};
+ElasticEnergy elastic_energy(const HerschelBulkleyParameters& law, double j, double trace_B) {
+  return {0.5 * law.bulk_modulus * (j + 0.5 * j * j - std::log1p(j)), 0.5 * law.shear_modulus * trace_B};
+}
+
+template <class Real>
+class PointMeasure {
+ public:
+  PointMeasure(const Scene& scene, const Material& material, const ParticleSet<Real>& set)
+      : scene_(scene),
+        law_(material.herschel_bulkley),
+        set_(set),
+        volume_(std::pow(scene.spacing, scene.dimension) / scene.points_per_cell),
+        moment_((scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25) * scene.spacing *
+                scene.spacing) {}
+
+  [[nodiscard]] static FrameMeasure empty() {
+    FrameMeasure m;
+    m.lowest.setConstant(std::numeric_limits<double>::infinity());
+    m.highest.setConstant(-std::numeric_limits<double>::infinity());
+    m.min_volume_ratio = std::numeric_limits<double>::infinity();
+    return m;
+  }
+
+  void add(FrameMeasure& m, std::size_t t, int lane) const {
+    const double mass = law_.density * volume_;
+    const Vec3 x = set_.position(t, lane);
+    const Vec3 v = set_.velocity(t, lane);
+    ++m.points;
+    m.mass += mass;
+    m.momentum += mass * v;
+    m.angular_momentum += mass * (x.cross(v) + affine_spin(t, lane));
+    m.center_of_mass += mass * x;
+    m.lowest = m.lowest.cwiseMin(x);
+    m.highest = m.highest.cwiseMax(x);
+    m.kinetic_energy += 0.5 * mass * v.squaredNorm();
+    m.gravity_energy -= mass * scene_.gravity.dot(x);
+    m.max_speed = std::max(m.max_speed, v.norm());
+    const auto at = [&](Field f, int c) {
+      return static_cast<double>(set_.template values<Real>(t, f, c)[lane]);
+    };
+    const double j = at(Field::kVolumeChange, 0);
+    const double trace_B =
+        at(Field::kElasticStrain, 0) + at(Field::kElasticStrain, 1) + at(Field::kElasticStrain, 2);
+    const ElasticEnergy e = elastic_energy(law_, j, trace_B);
+    m.elastic_volume_energy += volume_ * e.volume;
+    m.elastic_shear_energy += volume_ * e.shear;
+    m.min_volume_ratio = std::min(m.min_volume_ratio, 1 + j);
+    m.max_volume_ratio = std::max(m.max_volume_ratio, 1 + j);
+  }
+
+ private:
+  [[nodiscard]] Vec3 affine_spin(std::size_t t, int lane) const {
+    if (!set_.layout().has(Field::kAffine)) return Vec3::Zero();
+    const int d = scene_.dimension;
+    const auto c = [&](int a, int b) {
+      return a < d && b < d
+                 ? static_cast<double>(set_.template values<Real>(t, Field::kAffine, a * d + b)[lane])
+                 : 0.0;
+    };
+    return moment_ * Vec3(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
+  }
+
+  const Scene& scene_;
+  const HerschelBulkleyParameters& law_;
+  const ParticleSet<Real>& set_;
+  double volume_;
+  double moment_;
+};
+
+void fold(FrameMeasure& sum, const FrameMeasure& part) {
+  sum.points += part.points;
+  sum.mass += part.mass;
+  sum.momentum += part.momentum;
+  sum.angular_momentum += part.angular_momentum;
+  sum.center_of_mass += part.center_of_mass;  // times mass, until the end
+  sum.lowest = sum.lowest.cwiseMin(part.lowest);
+  sum.highest = sum.highest.cwiseMax(part.highest);
+  sum.kinetic_energy += part.kinetic_energy;
+  sum.elastic_volume_energy += part.elastic_volume_energy;
+  sum.elastic_shear_energy += part.elastic_shear_energy;
+  sum.gravity_energy += part.gravity_energy;
+  sum.max_speed = std::max(sum.max_speed, part.max_speed);
+  sum.min_volume_ratio = std::min(sum.min_volume_ratio, part.min_volume_ratio);
+  sum.max_volume_ratio = std::max(sum.max_volume_ratio, part.max_volume_ratio);
+}
+
+}  // namespace
+
+template <class Real>
+FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Real>>& sets, int threads) {
+  FrameMeasure sum = PointMeasure<Real>::empty();
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const ParticleSet<Real>& set = sets[s];
+    const PointMeasure<Real> points(scene, scene.materials[s], set);
+    const std::size_t chunks = (set.tiles() + kChunkTiles - 1) / kChunkTiles;
+    sum = parallel_fold(
+        threads, static_cast<std::int64_t>(chunks), sum,
+        [&](std::int64_t c) {
+          FrameMeasure part = PointMeasure<Real>::empty();
+          const std::size_t first = static_cast<std::size_t>(c) * kChunkTiles;
+          for (std::size_t t = first; t < std::min(first + kChunkTiles, set.tiles()); ++t)
+            for (int lane = 0; lane < kTile; ++lane)
+              if (set.template values<std::uint32_t>(t, Field::kId)[lane] != kNoPoint)
+                points.add(part, t, lane);
+          return part;
+        },
+        fold);
+  }
+  if (sum.mass > 0) sum.center_of_mass /= sum.mass;
+  if (sum.points == 0) {
+    sum.lowest.setZero();
+    sum.highest.setZero();
+    sum.min_volume_ratio = 0;
+  }
+  return sum;
+}
+
+template FrameMeasure measure_points(const Scene&, const std::vector<ParticleSet<float>>&, int);
+template FrameMeasure measure_points(const Scene&, const std::vector<ParticleSet<double>>&, int);
+
+}  // namespace lather

@@ -1,0 +1,72 @@
+#include <nlohmann/json.hpp>
+
+#include "sim/report/report.h"
+
+namespace lather {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+Json frame(const FrameMeasure& m) {
+  return {{"frame", m.frame},
+          {"time", m.time},
+          {"step", m.step},
+          {"points", m.points},
+          {"mass", m.mass},
+          {"momentum", vector(m.momentum)},
+          {"angular_momentum", vector(m.angular_momentum)},
+          {"center_of_mass", vector(m.center_of_mass)},
+          {"lowest", vector(m.lowest)},
+          {"highest", vector(m.highest)},
+          {"energy",
+           {{"kinetic", m.kinetic_energy},
+            {"elastic_volume", m.elastic_volume_energy},
+            {"elastic_shear", m.elastic_shear_energy},
+            {"gravity", m.gravity_energy}}},
+          {"max_speed", m.max_speed},
+          {"volume_ratio", {{"min", m.min_volume_ratio}, {"max", m.max_volume_ratio}}},
+          {"density",
+           {{"interior_nodes", m.interior_nodes},
+            {"mean", m.density_mean},
+            {"min", m.density_min},
+            {"max", m.density_max},
+            {"within_5_percent", m.density_within_5_percent}}}};
+}
+
+}  // namespace
+
+std::string to_json(const Report& r) {
+  Json stages = Json::array();
+  for (const StageTime& s : r.stages) stages.push_back({{"name", s.name}, {"seconds", s.seconds}});
+  Json frames = Json::array();
+  for (const FrameMeasure& m : r.frames) frames.push_back(frame(m));
+  const Json json = {{"lather_report", 1},
+                     {"state", r.state},
+                     {"error", r.error.empty() ? Json(nullptr) : Json(r.error)},
+                     {"scene", r.scene_name},
+                     {"scene_hash", r.scene_hash},
+                     {"version", r.version},
+                     {"kernel_level", r.kernel_level},
+                     {"render_backend", r.render_backend},
+                     {"threads", r.threads},
+                     {"steps", r.steps},
+                     {"point_steps", r.point_steps},
+                     {"simulated_time", r.simulated_time},
+                     {"wall_seconds", r.wall_seconds},
+                     {"render_seconds", r.render_seconds},
+                     {"point_steps_per_second", r.point_steps_per_second},
+                     {"largest_cfl", r.largest_cfl},
+                     {"time_step", {{"smallest", r.smallest_time_step}, {"largest", r.largest_time_step}}},
+                     {"points_removed", r.points_removed},
+                     {"mass_removed", r.mass_removed},
+                     {"stages", stages},
+                     {"frames", frames},
+                     {"warnings", r.warnings}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace lather
