@@ -1,0 +1,46 @@
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/agent/attempt.h"
+#include "server/store/store.h"
+
+namespace lather::server {
+
+/// Leases queued jobs and works on them, `workers` at a time, until stopped.
+class Agent {
+ public:
+  Agent(Store& store, AgentSettings settings);
+  ~Agent();  ///< stops
+  Agent(const Agent&) = delete;
+  Agent& operator=(const Agent&) = delete;
+
+  void wake();  ///< there may be a queued job
+
+  /// Asks for a job's end; it is over within two seconds. False when it has ended before, or there is none.
+  bool cancel(const std::string& id);
+
+  /// Ends all runners, queues their jobs again, and waits for that.
+  void stop();
+
+ private:
+  void work();
+  [[nodiscard]] std::shared_ptr<Attempt> take();  // waits for a job; null once stopping
+  void drop(const std::shared_ptr<Attempt>& attempt);
+
+  Store& store_;
+  const AgentSettings settings_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stopping_ = false;  // guarded by mutex_, as is the next
+  std::map<std::string, std::shared_ptr<Attempt>> running_;
+  std::vector<std::thread> workers_;
+};
+
+}  // namespace lather::server

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+/// Files of jobs are written whole: a reader sees all of a file or none of it, also after a power cut.
+namespace lather::server {
+
+/// The suffix of a file that is still being written.
+inline constexpr std::string_view kPartSuffix = ".part";
+
+/// Writes `bytes` to `file`.part, syncs it, renames it to `file` and syncs the directory.
+/// Throws std::system_error naming the file; the part is removed then. A failed sync is never retried on the
+/// same descriptor, for the kernel forgets what it could not write.
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// Removes every .part below `root` (left by a crash) and says how many there were.
+std::size_t sweep_parts(const std::filesystem::path& root);
+
+}  // namespace lather::server

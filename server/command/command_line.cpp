@@ -1,0 +1,154 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "server/agent/runner.h"
+#include "server/command/commands.h"
+#include "server/command/scene_source.h"
+#include "sim/error.h"
+
+namespace lather::server {
+namespace {
+
+constexpr int kRunnerFd = 3;
+
+struct AllOptions {
+  RunOptions run;
+  PlanOptions plan;
+  ServeOptions serve;
+  SubmitOptions submit;
+  bool version_json = false;
+  int exit_code = 0;
+};
+
+void add_scene(CLI::App& command, SceneSource& scene) {
+  command.add_option("SCENE", scene.file, "scene file (JSON)")->required();
+  command.add_option("--size", scene.size, "one of the sizes that the scene names, e.g. preview");
+  command.add_option("--set", scene.set, "change a field: /json/pointer=value; may be repeated")
+      ->allow_extra_args(false);
+}
+
+void add_backend(CLI::App& command, std::string& backend) {
+  command.add_option("--render-backend", backend, "auto, osmesa or egl")->capture_default_str();
+}
+
+void add_run(CLI::App& program, AllOptions& all) {
+  CLI::App& command =
+      *program.add_subcommand("run", "Simulate a scene and draw its frames, without a server");
+  add_scene(command, all.run.scene);
+  command.add_option("--out", all.run.out, "directory for frames/, report.json and plan.json")->required();
+  command.add_option("--threads", all.run.threads, "threads of a step; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  add_backend(command, all.run.render_backend);
+  command.add_flag("--json", all.run.json, "events as JSON lines on stdout");
+  command.callback([&all] { all.exit_code = run_command(all.run); });
+}
+
+void add_plan(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand("plan", "Say what a scene would cost: points, steps, memory");
+  add_scene(command, all.plan.scene);
+  command.add_flag("--json", all.plan.json, "the plan as JSON");
+  command.callback([&all] { all.exit_code = plan_command(all.plan); });
+}
+
+void add_limits(CLI::App& command, JobLimits& limits) {
+  command.add_option("--max-points", limits.points, "points a job may have")->capture_default_str();
+  command.add_option("--max-frames", limits.frames, "frames a job may have")->capture_default_str();
+  command.add_option("--max-pixels", limits.pixels, "pixels a frame may have")->capture_default_str();
+  command
+      .add_option("--max-memory", limits.memory_bytes,
+                  "bytes a job may plan to use; 0: most of the machine's")
+      ->capture_default_str();
+  command.add_option("--max-point-steps", limits.point_steps, "points times steps a job may have")
+      ->capture_default_str();
+}
+
+void add_serve(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand("serve", "Take scenes over HTTP, and show the page");
+  ServeOptions& serve = all.serve;
+  command.add_option("--host", serve.host, "address to listen on")->capture_default_str();
+  command.add_option("--port", serve.port, "0: any that is free")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  command.add_flag("--allow-remote", serve.allow_remote, "listen on an address that others can reach");
+  command.add_option("--allow-host", serve.allow_host, "a further name by which this server may be called");
+  command.add_option("--data", serve.data, "directory of jobs and store, on a local disk")
+      ->capture_default_str();
+  command.add_option("--scenes", serve.scenes, "directory of example scenes for the page");
+  command.add_option("--workers", serve.workers, "jobs at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 256));
+  command.add_option("--threads", serve.threads, "threads of each job; 0: the cores shared by the workers")
+      ->check(CLI::Range(0, 1024));
+  add_backend(command, serve.render_backend);
+  command.add_option("--runner-memory", serve.runner_memory,
+                     "address space of a runner in bytes; 0: no limit");
+  command.add_option("--request-seconds", serve.request_seconds, "time for a request's head to arrive")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  add_limits(command, serve.limits);
+  command.callback([&all] { all.exit_code = serve_command(all.serve); });
+}
+
+void add_submit(CLI::App& program, AllOptions& all) {
+  CLI::App& command =
+      *program.add_subcommand("submit", "Post a scene to a server, wait, and download its frames");
+  add_scene(command, all.submit.scene);
+  command.add_option("--server", all.submit.server, "http://HOST:PORT")->required();
+  command.add_option("--out", all.submit.out,
+                     "directory for frames/ and report.json; none: nothing is downloaded");
+  command.add_flag("--json", all.submit.json, "the job's last state as JSON on stdout, no progress");
+  command.callback([&all] { all.exit_code = submit_command(all.submit); });
+}
+
+void add_rest(CLI::App& program, AllOptions& all) {
+  CLI::App& version = *program.add_subcommand("version", "Print the version");
+  version.add_flag("--json", all.version_json, "as JSON");
+  version.callback([&all] { all.exit_code = version_command(all.version_json); });
+  program.add_subcommand("schema", "Print the JSON Schema of a scene")->callback([&all] {
+    all.exit_code = schema_command();
+  });
+  program.add_subcommand("reference", "Print the scene format as Markdown tables")->callback([&all] {
+    all.exit_code = reference_command();
+  });
+  // Started by a server for each attempt at a job; not for people.
+  program.add_subcommand("runner", "")->group("")->callback([&all] {
+    all.exit_code = runner_main(kRunnerFd);
+  });
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program("Lather: foam simulated and drawn, without a screen", "lather");
+  program.require_subcommand(1);
+  AllOptions all;
+  add_run(program, all);
+  add_plan(program, all);
+  add_serve(program, all);
+  add_submit(program, all);
+  add_rest(program, all);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : kExitBadInput;
+  }
+  return all.exit_code;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const InputError& error) {
+    print_problems("lather: this cannot be used:", error.problems());
+    return kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "lather: out of memory: choose a larger spacing or a smaller picture\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lather: %s\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace lather::server

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "server/http/limits.h"
+
+/// The commands of the program. Each returns its exit code; InputError and other exceptions are reported by
+/// run_command_line().
+namespace lather::server {
+
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitSimulation = 3;
+inline constexpr int kExitInterrupted = 130;
+
+/// A scene file and what is changed in it before it is read.
+struct SceneSource {
+  std::filesystem::path file;
+  std::string size;
+  std::vector<std::string> set;  ///< "/json/pointer=value"
+};
+
+struct RunOptions {
+  SceneSource scene;
+  std::filesystem::path out;
+  int threads = 0;
+  std::string render_backend = "auto";
+  bool json = false;
+};
+int run_command(const RunOptions& options);
+
+struct PlanOptions {
+  SceneSource scene;
+  bool json = false;
+};
+int plan_command(const PlanOptions& options);
+
+struct ServeOptions {
+  std::string host = "127.0.0.1";
+  int port = 8080;
+  bool allow_remote = false;
+  std::vector<std::string> allow_host;
+  std::filesystem::path data = "lather-data";
+  std::filesystem::path scenes;
+  int workers = 1;
+  int threads = 0;
+  std::string render_backend = "auto";
+  std::uint64_t runner_memory = 0;  ///< bytes; 0: no limit
+  double request_seconds = 10;      ///< for a request's head to arrive
+  JobLimits limits;
+};
+int serve_command(const ServeOptions& options);
+
+struct SubmitOptions {
+  SceneSource scene;
+  std::string server;
+  std::filesystem::path out;
+  bool json = false;
+};
+int submit_command(const SubmitOptions& options);
+
+int version_command(bool json);
+int schema_command();
+int reference_command();
+
+/// Parses and runs; every error goes to stderr in words, and into the exit code.
+int run_command_line(int argc, char** argv);
+
+}  // namespace lather::server

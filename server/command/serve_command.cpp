@@ -1,0 +1,148 @@
+#include <pthread.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "server/agent/agent.h"
+#include "server/agent/recovery.h"
+#include "server/artifacts/layout.h"
+#include "server/artifacts/lock_file.h"
+#include "server/command/commands.h"
+#include "server/http/api.h"
+#include "server/http/listener.h"
+#include "server/store/store.h"
+#include "sim/error.h"
+
+namespace lather::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.compare(0, 4, "127.") == 0;
+}
+
+void require_reachable_on_purpose(const ServeOptions& options) {
+  if (is_loopback(options.host) || options.allow_remote) return;
+  throw InputError(
+      {{"--host", options.host, "127.0.0.1, ::1 or localhost; others with --allow-remote",
+        "whoever can reach this address could run jobs, for there are no API keys yet: put a proxy with "
+        "authentication before it and say --allow-remote"}});
+}
+
+/// Blocked in all threads that are started after this, taken by wait_for_stop() alone.
+sigset_t block_stop_signals() {
+  std::signal(SIGPIPE, SIG_IGN);
+  sigset_t stop;
+  ::sigemptyset(&stop);
+  ::sigaddset(&stop, SIGINT);
+  ::sigaddset(&stop, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
+  return stop;
+}
+
+void wait_for_stop(const sigset_t& stop) {
+  int signal = 0;
+  ::sigwait(&stop, &signal);
+  spdlog::info("{}: stopping; running jobs go back into the queue", signal == SIGINT ? "SIGINT" : "SIGTERM");
+}
+
+/// A thousand waiting connections need as many descriptors.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+void log_to_stderr() {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("lather"));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+}
+
+/// The installed or checked-out example scenes, where there are any.
+fs::path find_scenes(const ServeOptions& options) {
+  if (!options.scenes.empty()) return fs::absolute(options.scenes);
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const char* beside : {"../share/lather/scenes", "../../scenes"}) {
+    const fs::path scenes = (program / beside).lexically_normal();
+    if (fs::is_directory(scenes, ignored)) return scenes;
+  }
+  return {};
+}
+
+std::unique_ptr<Store> open_data(const fs::path& data) {
+  std::unique_ptr<Store> store = open_sqlite_store(data / "lather.db");
+  const Recovery done = recover(*store, data);
+  if (done.jobs + done.files + done.directories > 0)
+    spdlog::info("after the last end: {} jobs put back, {} unfinished files and {} directories removed",
+                 done.jobs, done.files, done.directories);
+  return store;
+}
+
+AgentSettings agent_settings(const ServeOptions& options, const fs::path& data) {
+  AgentSettings settings;
+  settings.data = data;
+  settings.workers = options.workers;
+  settings.threads = options.threads;
+  settings.render_backend = options.render_backend;
+  settings.memory_limit = options.runner_memory;
+  return settings;
+}
+
+ListenerSettings listener_settings(const ServeOptions& options) {
+  ListenerSettings settings;
+  settings.hosts = options.allow_host;
+  settings.parking.head_deadline =
+      std::chrono::milliseconds(static_cast<long>(1000 * options.request_seconds));
+  settings.parking.body_deadline = 3 * settings.parking.head_deadline;
+  return settings;
+}
+
+ApiSettings api_settings(const ServeOptions& options, const fs::path& data) {
+  ApiSettings settings;
+  settings.data = data;
+  settings.scenes = find_scenes(options);
+  settings.limits = options.limits;
+  return settings;
+}
+
+}  // namespace
+
+int serve_command(const ServeOptions& options) {
+  require_reachable_on_purpose(options);
+  const sigset_t stop_signals = block_stop_signals();
+  raise_descriptor_limit();
+  log_to_stderr();
+  const fs::path data = fs::absolute(options.data);
+  fs::create_directories(jobs_directory(data));
+  const LockFile lock(data);
+  const std::unique_ptr<Store> store = open_data(data);
+
+  Agent agent(*store, agent_settings(options, data));
+  Api api(*store, agent, api_settings(options, data));
+  Listener listener(listener_settings(options),
+                    [&api](const HttpRequest& request) { return api.handle(request); });
+  const int port = listener.start(options.host, options.port);
+  const bool v6 = options.host.find(':') != std::string::npos;
+  std::printf("listening on http://%s:%d\n", v6 ? ('[' + options.host + ']').c_str() : options.host.c_str(),
+              port);
+  std::fflush(stdout);
+
+  wait_for_stop(stop_signals);
+  listener.stop();
+  agent.stop();
+  spdlog::info("stopped");
+  return 0;
+}
+
+}  // namespace lather::server

@@ -1,0 +1,142 @@
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "server/artifacts/layout.h"
+#include "server/artifacts/safe_read.h"
+#include "server/http/api.h"
+#include "server/http/byte_range.h"
+#include "server/http/job_json.h"
+#include "server/http/problem.h"
+#include "server/http/zip_stream.h"
+#include "server/run/run.h"
+
+namespace lather::server {
+namespace {
+
+std::optional<int> frame_number(const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+/// The whole, or the one range that was asked for.
+HttpResponse bytes_response(const HttpRequest& request, std::string bytes) {
+  HttpResponse response;
+  response.headers.emplace_back("Accept-Ranges", "bytes");
+  const auto range = read_range(request.header("range"), bytes.size());
+  const std::string total = std::to_string(bytes.size());
+  if (std::holds_alternative<UnsatisfiableRange>(range)) {
+    response = HttpError(416, "the range lies outside the file's " + total + " bytes").response();
+    response.headers.emplace_back("Content-Range", "bytes */" + total);
+  } else if (const ByteRange* part = std::get_if<ByteRange>(&range)) {
+    response.status = 206;
+    response.headers.emplace_back("Content-Range", "bytes " + std::to_string(part->first) + '-' +
+                                                       std::to_string(part->first + part->size - 1) + '/' +
+                                                       total);
+    response.body = bytes.substr(part->first, part->size);
+  } else {
+    response.body = std::move(bytes);
+  }
+  return response;
+}
+
+/// Counts a stream for as long as any copy of it lives.
+std::shared_ptr<void> take_stream(std::atomic<int>& streams, int most) {
+  if (streams.fetch_add(1) < most) return {&streams, [](std::atomic<int>* count) { count->fetch_sub(1); }};
+  streams.fetch_sub(1);
+  return nullptr;
+}
+
+}  // namespace
+
+HttpResponse Api::list_frames(const std::string& id) {
+  const Job job = need_job(id);
+  return json_response(200, write_json(frames_value(job, store_.frames(id)), 2));
+}
+
+HttpResponse Api::get_frame(const HttpRequest& request, const std::string& id, const std::string& number) {
+  const Job job = need_job(id);
+  const std::optional<int> index = frame_number(number);
+  const std::optional<FrameRow> frame = index ? store_.frame(id, *index) : std::nullopt;
+  if (!frame)
+    throw HttpError(404, "there is no frame " + number.substr(0, 20) + " (yet); the job has " +
+                             std::to_string(job.progress.frames) + " when it is done");
+  const std::string tag = '"' + frame->sha256 + '"';
+  HttpResponse response;
+  if (request.header("if-none-match").find(tag) != std::string::npos) {
+    response.status = 304;
+  } else {
+    std::optional<std::string> bytes = read_frame(id, *frame);
+    if (!bytes) throw HttpError(404, "the frame's file is gone from the data directory");
+    response = bytes_response(request, std::move(*bytes));
+    if (response.status < 300) response.content_type = "image/png";
+  }
+  response.headers.emplace_back("ETag", tag);
+  response.headers.emplace_back("Cache-Control", "no-cache");
+  return response;
+}
+
+HttpResponse Api::get_zip(const std::string& id) {
+  const Job job = need_job(id);
+  const std::shared_ptr<void> place = take_stream(streams_, settings_.most_streams);
+  if (!place) {
+    HttpResponse busy = HttpError(503, "too many downloads are under way: try again").response();
+    busy.headers.emplace_back("Retry-After", "5");
+    return busy;
+  }
+  std::vector<ZipEntry> entries;
+  for (const FrameRow& frame : store_.frames(id))
+    entries.push_back({frame_file_name(frame.index), [this, id, frame] { return read_frame(id, frame); }});
+  HttpResponse response;
+  response.content_type = "application/zip";
+  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + id + ".zip\"");
+  response.headers.emplace_back("Cache-Control", "no-store");
+  response.stream = [entries = std::move(entries), place](const BodySink& sink) {
+    return write_zip(entries, sink);
+  };
+  return response;
+}
+
+HttpResponse Api::get_report(const std::string& id) {
+  const Job job = need_job(id);
+  std::optional<std::string> report =
+      read_beneath(job_directory(settings_.data, id), attempt_path(job.attempt) + '/' + kReportName);
+  if (!report)
+    throw HttpError(404, "there is no report: it is written when a run ends by itself; the job is " +
+                             std::string(to_string(job.state)));
+  return json_response(200, std::move(*report));
+}
+
+HttpResponse Api::get_plan(const std::string& id) {
+  static_cast<void>(need_job(id));
+  return json_response(200, store_.plan(id).value_or("{}"));
+}
+
+HttpResponse Api::get_log(const std::string& id) {
+  const Job job = need_job(id);
+  std::optional<std::string> log =
+      read_beneath(job_directory(settings_.data, id), attempt_path(job.attempt) + '/' + kLogName);
+  if (!log) throw HttpError(404, "there is no log: no attempt has been started yet");
+  HttpResponse response = json_response(200, std::move(*log));
+  response.content_type = "text/plain; charset=utf-8";
+  return response;
+}
+
+std::optional<std::string> Api::read_frame(const std::string& id, const FrameRow& frame) const {
+  const auto read = [&](const FrameRow& row) {
+    return read_beneath(job_directory(settings_.data, id),
+                        attempt_path(row.attempt) + '/' + kFramesPath + '/' + frame_file_name(row.index));
+  };
+  if (std::optional<std::string> bytes = read(frame)) return bytes;
+  // A newer attempt may have replaced it since the row was read.
+  const std::optional<FrameRow> now = store_.frame(id, frame.index);
+  return now && now->attempt != frame.attempt ? read(*now) : std::nullopt;
+}
+
+}  // namespace lather::server

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "sim/plan/plan.h"
+#include "sim/report/report.h"
+
+/// A plan to pictures: simulate, draw beside the next steps, write each frame whole. Used by `lather run` and
+/// by the runner of a job alike.
+namespace lather::server {
+
+struct RunSettings {
+  std::filesystem::path frames;  ///< directory of 00000.png …; made if missing
+  std::filesystem::path report;  ///< file; written at the end, however the run ends
+  int threads = 0;               ///< of a step; 0: all cores
+  std::string render_backend = "auto";
+};
+
+struct RunProgress {
+  int frame = 0;         ///< the frame being worked towards
+  int frames = 0;        ///< pictures in all
+  double time = 0;       ///< simulated, s
+  double time_step = 0;  ///< s
+  double fraction = 0;   ///< of the simulated duration, 0 … 1
+  std::uint64_t step = 0;
+  double seconds_per_frame = 0;  ///< wall clock, mean so far
+  double eta_seconds = -1;       ///< wall clock; negative: not known yet
+};
+
+struct FrameFile {
+  int index = 0;
+  std::string file;  ///< name within RunSettings::frames
+  std::string sha256;
+  std::uint64_t size = 0;  ///< bytes
+};
+
+/// What a run tells while it goes. Calls come one at a time, from two threads.
+class RunEvents {
+ public:
+  virtual ~RunEvents() = default;
+  virtual void progress(const RunProgress& progress) = 0;  ///< about ten a second at most
+  virtual void frame(const FrameFile& frame) = 0;          ///< the file is whole and on the disk
+  virtual void log(const std::string& line) = 0;
+};
+
+/// Runs to the end, or until `stop` is set. Report::state is "succeeded", "cancelled" or "failed" (then with
+/// Report::error); a SimulationError becomes "failed", frames drawn before it are still written. Throws
+/// InputError for what the plan or the settings ask and cannot have, std::exception when files or the
+/// renderer fail.
+[[nodiscard]] Report run(const Plan& plan, const RunSettings& settings, RunEvents& events,
+                         const std::atomic<bool>& stop);
+
+/// "00042.png"
+[[nodiscard]] std::string frame_file_name(int index);
+
+}  // namespace lather::server
