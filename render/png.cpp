@@ -42,26 +42,48 @@ spng_text text_chunk(const char* keyword, std::string& text, bool utf8) {
   return chunk;
 }
 
-void set_text(spng_ctx* png, const PngText& text) {
-  std::array<char, 32> time{};
-  std::snprintf(time.data(), time.size(), "%.9g", text.time);
-  std::string hash = text.scene_hash, version = text.version, name = text.scene_name, seconds = time.data();
-  std::string frame = std::to_string(text.frame);
-  std::array<spng_text, 5> chunks{};
-  std::uint32_t count = 0;
-  // An empty text is left out: PNG allows it, but some readers do not.
-  const auto add = [&](const char* keyword, std::string& value, bool utf8) {
-    if (!value.empty()) chunks[count++] = text_chunk(keyword, value, utf8);
-  };
-  add("Title", name, true);
-  add("lather:scene", hash, false);
-  add("lather:version", version, false);
-  add("lather:time", seconds, false);
-  add("lather:frame", frame, false);
-  check(spng_set_text(png, chunks.data(), count), "Cannot put the texts into the PNG");
+/// The chunks of a PngText. libspng keeps pointers to their texts until the picture is written.
+class TextChunks {
+ public:
+  explicit TextChunks(const PngText& text)
+      : name_(text.scene_name), hash_(text.scene_hash), version_(text.version) {
+    std::array<char, 32> time{};
+    std::snprintf(time.data(), time.size(), "%.9g", text.time);
+    time_ = time.data();
+    frame_ = std::to_string(text.frame);
+    add("Title", name_, true);
+    add("lather:scene", hash_, false);
+    add("lather:version", version_, false);
+    add("lather:time", time_, false);
+    add("lather:frame", frame_, false);
+  }
+  TextChunks(const TextChunks&) = delete;
+  TextChunks& operator=(const TextChunks&) = delete;
+
+  void put_into(spng_ctx* png) {
+    check(spng_set_text(png, chunks_.data(), count_), "Cannot put the texts into the PNG");
+  }
+
+ private:
+  /// An empty text is left out: PNG allows it, but some readers do not.
+  void add(const char* keyword, std::string& value, bool utf8) {
+    if (!value.empty()) chunks_[count_++] = text_chunk(keyword, value, utf8);
+  }
+
+  std::string name_, hash_, version_, time_, frame_;
+  std::array<spng_text, 5> chunks_{};
+  std::uint32_t count_ = 0;
+};
+
+/// libspng does not read the last chunk's check sum, the end of every PNG.
+void check_end(std::string_view bytes) {
+  constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+  if (bytes.size() < kEnd.size() || bytes.substr(bytes.size() - kEnd.size()) != kEnd)
+    throw std::runtime_error("The PNG is damaged: it does not end with its end chunk.");
 }
 
 Spng open_png(std::string_view bytes) {
+  check_end(bytes);
   Spng png(spng_ctx_new(0));
   if (!png) throw std::bad_alloc();
   check(spng_set_image_limits(png.get(), kLargestSide, kLargestSide), "Cannot read the PNG");
@@ -97,7 +119,8 @@ std::string encode_png(const Image& image, const PngText& text) {
   header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
   check(spng_set_ihdr(png.get(), &header), "Cannot write the PNG");
   check(spng_set_srgb(png.get(), 0), "Cannot write the PNG");
-  set_text(png.get(), text);
+  TextChunks chunks(text);
+  chunks.put_into(png.get());
   check(spng_encode_image(png.get(), image.rgb.data(), image.rgb.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE),
         "Cannot write the PNG");
   std::size_t size = 0;

@@ -92,10 +92,14 @@ void ScreenPasses::occlude(const Shot& shot) const {
   occlusion_.set("reach", contact, std::max(shape, contact));
   cover(open_);
   start(blur_occlusion_, shot);
-  blur_occlusion_.set_texture("open_map", 0, open_map_.id());
   blur_occlusion_.set_texture("depth_map", 1, depth_map_.id());
   blur_occlusion_.set("reach", contact);
+  // Twice: the first takes out the pattern of the samples' turns, the second what is left of it at rough
+  // edges.
+  blur_occlusion_.set_texture("open_map", 0, open_map_.id());
   cover(blurred_open_);
+  blur_occlusion_.set_texture("open_map", 0, blurred_open_map_.id());
+  cover(open_);
 }
 
 void ScreenPasses::composite(const Shot& shot, const Look& look) const {
@@ -103,7 +107,7 @@ void ScreenPasses::composite(const Shot& shot, const Look& look) const {
   composite_.set_texture("albedo_map", 0, albedo_map_.id());
   composite_.set_texture("normal_map", 1, normal_map_.id());
   composite_.set_texture("depth_map", 2, depth_map_.id());
-  composite_.set_texture("open_map", 3, blurred_open_map_.id());
+  composite_.set_texture("open_map", 3, open_map_.id());
   composite_.set_texture("shadow_map", 4, shadow_map_.id());
   composite_.set("shadows", shot.shadows ? 1 : 0);
   composite_.set("shadow_from_camera", shadow_from_camera(shot));

@@ -71,8 +71,8 @@ void main() {
   // Spheres do not occlude the ones beside them, only what the surface that they make up can: the rest is noise.
   float bias = is_point(kind) ? 1.2 * radius : 0.0;
   float turn = float((p.x & 3) * 4 + (p.y & 3)) * (6.2831853 / 16.0);
-  float shut = 1.3 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.x, reach.x, turn) +
-               3.0 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.y, reach.y, turn);
+  float shut = 1.5 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.x, reach.x, turn) +
+               3.6 * obscurance(gl_FragCoord.xy, here, normal, bias + 0.02 * reach.y, reach.y, turn);
   out_open = max(0.0, 1.0 - shut);
 }
 )"};
@@ -157,7 +157,7 @@ vec3 shade(ivec2 q, vec2 pixel, float open) {
   vec3 sky = mix(vec3(0.15, 0.145, 0.14), vec3(0.27, 0.29, 0.33), 0.5 + 0.5 * dot(normal, up));
   vec3 view = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-here);
   float shine = pow(max(dot(normal, normalize(key + view)), 0.0), 24.0) * 0.05 * step(0.0, facing);
-  vec3 light = vec3(0.76, 0.73, 0.68) * direct + open * (sky + vec3(0.09, 0.10, 0.12) * max(dot(normal, fill), 0.0)) +
+  vec3 light = vec3(0.76, 0.73, 0.68) * direct * mix(1.0, open, 0.6) + open * (sky + vec3(0.13, 0.14, 0.16) * max(dot(normal, fill), 0.0)) +
                open * vec3(0.16) * max(dot(normal, rim), 0.0);
   vec3 color = tone(base * light + shine * direct);
   if (is_floor(albedo.a)) {

@@ -10,7 +10,8 @@ namespace lather::render {
 /// A domain of 1 x 0.6 x 1 m over the floor, one material, no points.
 [[nodiscard]] Frame empty_frame();
 
-/// About `count` points in the shape of a dollop of foam: turns of a rope that narrow upwards, resting on the floor.
+/// About `count` points in the shape of a dollop of foam: turns of a rope that narrow upwards, resting on the
+/// floor.
 [[nodiscard]] Frame dollop(int count);
 
 /// A box around the origin, flat faces.
