@@ -71,9 +71,9 @@ HttpResponse Api::list_jobs(const HttpRequest& request) {
   }
   Array jobs;
   for (const Job& job : page.jobs) jobs.push_back(job_value(job, store_.count_frames(job.id)));
-  Value next = nullptr;
-  if (!page.next_cursor.empty()) next = page.next_cursor;
-  return json_response(200, write_json(Object{{"jobs", std::move(jobs)}, {"next_cursor", next}}, 2));
+  Object answer = {{"jobs", std::move(jobs)}, {"next_cursor", nullptr}};
+  if (!page.next_cursor.empty()) answer.back().second = page.next_cursor;
+  return json_response(200, write_json(answer, 2));
 }
 
 HttpResponse Api::cancel_job(const std::string& id) {

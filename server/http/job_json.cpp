@@ -16,17 +16,20 @@ Value text_or_null(const std::string& text) {
   return text;
 }
 
+Value time_left_or_null(const Job& job) {
+  if (job.state != JobState::kRunning || job.progress.eta_seconds < 0) return nullptr;
+  return job.progress.eta_seconds;
+}
+
 Value progress_value(const Job& job) {
   const JobProgress& progress = job.progress;
-  Value eta = nullptr;
-  if (job.state == JobState::kRunning && progress.eta_seconds >= 0) eta = progress.eta_seconds;
   return Object{{"frame", progress.frame},
                 {"frames", progress.frames},
                 {"time", progress.time},
                 {"step", static_cast<std::int64_t>(progress.step)},
                 {"fraction", job.state == JobState::kSucceeded ? 1.0 : progress.fraction},
                 {"seconds_per_frame", progress.seconds_per_frame},
-                {"eta_seconds", eta}};
+                {"eta_seconds", time_left_or_null(job)}};
 }
 
 Value links_value(const std::string& id) {

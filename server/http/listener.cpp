@@ -58,7 +58,7 @@ class GuardedStream final : public httplib::Stream {
   void get_remote_ip_and_port(std::string& ip, int& port) const override { ip.clear(), port = 0; }
   void get_local_ip_and_port(std::string& ip, int& port) const override { ip.clear(), port = 0; }
   // The library compares it with FD_SETSIZE, which is a limit of select() and none of ours.
-  httplib::socket_t socket() const override { return 0; }
+  socket_t socket() const override { return 0; }
 
  private:
   static constexpr long kSlowestBytesPerSecond = 8192;
@@ -118,7 +118,7 @@ const httplib::Headers kHeadersOfAll = {{"X-Content-Type-Options", "nosniff"},
 
 class Listener::Server final : public httplib::Server {
  public:
-  Server(ListenerSettings settings, Handler handler)
+  Server(ListenerSettings settings, Listener::Handler handler)
       : access_(std::move(settings.hosts)),
         handler_(std::move(handler)),
         pool_(settings.threads, settings.most_waiting),
@@ -129,7 +129,7 @@ class Listener::Server final : public httplib::Server {
     set_default_headers(kHeadersOfAll);
     set_keep_alive_max_count(1000000);
     // Not the library's own, which let a second server take the same port unseen (SO_REUSEPORT).
-    set_socket_options([](httplib::socket_t fd) {
+    set_socket_options([](socket_t fd) {
       const int yes = 1;
       ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
@@ -162,7 +162,7 @@ class Listener::Server final : public httplib::Server {
   }
 
  private:
-  bool process_and_close_socket(httplib::socket_t fd) override {
+  bool process_and_close_socket(socket_t fd) override {
     const int yes = 1;
     ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     parking_.add(OwnedFd(fd));
@@ -231,7 +231,7 @@ class Listener::Server final : public httplib::Server {
   static thread_local const HttpRequest* current_;
 
   const AccessRules access_;
-  const Handler handler_;
+  const Listener::Handler handler_;
   std::atomic<bool> stopping_{false};
   WorkerPool pool_;
   Parking parking_;
