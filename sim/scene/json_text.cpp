@@ -83,8 +83,8 @@ class Builder : public nlohmann::json_sax<Json> {
     std::string pointer;
     for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
       const Array* array = open_[i]->array();
-      pointer += array != nullptr ? "/" + std::to_string(array->size() - 1)
-                                  : pointer_token(open_[i]->object()->back().first);
+      pointer += pointer_token(array != nullptr ? std::to_string(array->size() - 1)
+                                                : open_[i]->object()->back().first);
     }
     return pointer;
   }
@@ -92,7 +92,8 @@ class Builder : public nlohmann::json_sax<Json> {
   /// Pointer to the value that comes next.
   [[nodiscard]] std::string where() const {
     if (open_.empty()) return "";
-    if (const Array* array = open_.back()->array()) return container() + "/" + std::to_string(array->size());
+    if (const Array* array = open_.back()->array())
+      return container() + pointer_token(std::to_string(array->size()));
     const Object* object = open_.back()->object();
     return container() + (object->empty() ? "" : pointer_token(object->back().first));
   }
@@ -143,10 +144,14 @@ class Builder : public nlohmann::json_sax<Json> {
   std::size_t count_ = 0;
 };
 
+/// The fewest digits that read back as the same number, with an exponent only for very small and large ones.
 std::string number(double value) {
   if (value == 0) return "0";  // no negative zero
+  const double size = std::abs(value);
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  const auto end = size >= 1e-4 && size < 1e7
+                       ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr
+                       : std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
 }
 

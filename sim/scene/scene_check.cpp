@@ -34,7 +34,8 @@ void check_materials_known(const Scene& scene, const Place& root) {
   for (const Material& m : scene.materials) names.push_back(m.name);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::string& wanted = scene.bodies[i].material;
-    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+    const bool nameless = std::find(names.begin(), names.end(), "") != names.end();  // noted already
+    if (nameless || wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
     const std::string near = descriptor::nearest_name(wanted, names);
     root.at("bodies")
         .at(i)
@@ -45,20 +46,31 @@ void check_materials_known(const Scene& scene, const Place& root) {
   }
 }
 
-void check_grid(const Value& document, const Scene& scene, const Place& root) {
-  const Value* spacing = document.find("spacing");
+/// From 4 to 32000 cells along every axis. Notes the first axis that has fewer or more, with the range that
+/// fits all.
+bool check_cells(const Value& document, const Scene& scene, const Place& root) {
+  const Vec3 extent = scene.domain.box.extent();
+  const double least = extent.head(scene.dimension).maxCoeff() / kMaxCells;
+  const double most = extent.head(scene.dimension).minCoeff() / kMinCells;
+  for (int i = 0; i < scene.dimension; ++i) {
+    const double cells = extent[i] / scene.spacing;
+    if (cells >= kMinCells * (1 - 1e-9) && cells <= kMaxCells * (1 + 1e-9)) continue;
+    const std::string range = least <= most
+                                  ? "from " + text_of(least) + " to " + text_of(most) + " m"
+                                  : "none: the domain is more than 8000 times as long as it is wide";
+    return root.at("spacing").refuse(document.find("spacing"), range,
+                                     "The domain has " + text_of(std::round(cells * 10) / 10) +
+                                         " cells along " + kAxes[static_cast<std::size_t>(i)] +
+                                         "; it must have from 4 to 32000.");
+  }
+  return true;
+}
+
+void check_periods(const Scene& scene, const Place& root) {
   for (int i = 0; i < scene.dimension; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     const double extent = scene.domain.box.extent()[i];
-    const double cells = extent / scene.spacing;
-    if (cells < kMinCells * (1 - 1e-9) || cells > kMaxCells * (1 + 1e-9)) {
-      root.at("spacing").refuse(
-          spacing, "from " + text_of(extent / kMaxCells) + " to " + text_of(extent / kMinCells) + " m",
-          "The domain has " + text_of(std::round(cells * 10) / 10) + " cells along " + kAxes[axis] +
-              "; it must have from 4 to 32000.");
-      continue;
-    }
-    const double blocks = cells / 4;
+    const double blocks = extent / scene.spacing / 4;
     if (!scene.domain.periodic[axis] || std::abs(blocks - std::round(blocks)) <= 1e-9 * blocks) continue;
     const double fits = 4 * scene.spacing * std::max(1.0, std::round(blocks));
     root.at("domain")
@@ -125,7 +137,7 @@ void check_names(const Value& document, const Scene& scene, const Place& root) {
 
 void check_whole(const Value& document, Scene& scene, const Place& root) {
   check_points_per_cell(document, scene, root);
-  check_grid(document, scene, root);
+  if (check_cells(document, scene, root)) check_periods(scene, root);
   check_frames(document, scene, root);
   if (scene.dimension == 2) check_plane(document, scene, root);
   const std::size_t colors = scene.look.material_colors.size();

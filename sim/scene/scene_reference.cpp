@@ -21,7 +21,8 @@ std::string cell(const std::string& text) {
 std::string default_of(const FieldInfo& field) {
   if (field.presence == descriptor::Presence::kRequired) return "required";
   if (!field.default_words.empty()) return cell(field.default_words);
-  return field.default_value ? "`" + cell(write_json(*field.default_value)) + "`" : "none";
+  return field.default_value ? std::string("`").append(cell(write_json(*field.default_value))).append("`")
+                             : "none";
 }
 
 std::string rows(const std::vector<FieldInfo>& fields) {
