@@ -54,11 +54,11 @@ class OsmesaBackend final : public Context {
       make_current();
       load("osmesa", osmesa_.get_proc_address);
     } catch (...) {
-      osmesa_.destroy(context_);
+      release();
       throw;
     }
   }
-  ~OsmesaBackend() override { osmesa_.destroy(context_); }
+  ~OsmesaBackend() override { release(); }
   OsmesaBackend(const OsmesaBackend&) = delete;
   OsmesaBackend& operator=(const OsmesaBackend&) = delete;
 
@@ -68,6 +68,11 @@ class OsmesaBackend final : public Context {
   }
 
  private:
+  void release() {
+    osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    osmesa_.destroy(context_);
+  }
+
   static constexpr int kSide = 16;  // px; never drawn to, but OSMesa wants a buffer
   Osmesa osmesa_;
   OsmesaContext context_ = nullptr;
@@ -81,3 +86,12 @@ std::unique_ptr<Context> make_osmesa_context() {
 }
 
 }  // namespace lather::render
+
+#ifdef __SANITIZE_ADDRESS__
+// OSMesa loses about a hundred bytes a context, even when that is unbound and destroyed; our own leaks still
+// count.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libOSMesa.so\n";
+}
+#endif

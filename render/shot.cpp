@@ -92,6 +92,8 @@ Shot make_shot(const Frame& frame, const Look& look, const Look::Camera& camera,
   shot.view = shot.flat ? flat_view(frame.domain, aspect) : perspective_view(camera, aspect, seen);
   shot.ground = look.floor && (shot.flat || camera.eye.y() > shot.floor_center.y());
   shot.lights = lights_for(shot.view);
+  // Flat scenes face the camera: lit from there, or all of them would lie in half light.
+  if (shot.flat) shot.lights.key = Vec3(-0.35, 0.5, 1).normalized();
   shot.shadows = look.shadows && !shot.flat;
   place_shadow(shot);
   return shot;
