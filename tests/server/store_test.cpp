@@ -1,0 +1,203 @@
+#include "server/store/store.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/server/temporary_directory.h"
+
+namespace lather::server {
+namespace {
+
+class StoreTest : public ::testing::Test {
+ protected:
+  StoreTest() : store_(open_sqlite_store(directory_.path() / "lather.db")) {}
+
+  std::string add(const std::string& name, int priority = 0, const std::string& key = {}) {
+    Submission submission;
+    submission.job.id = new_job_id();
+    submission.job.name = name;
+    submission.job.priority = priority;
+    submission.job.created = now_ms();
+    submission.job.points = 1234;
+    submission.job.frame_rate = 24;
+    submission.job.progress.frames = 4;
+    submission.job.idempotency_key = key;
+    submission.job.request_digest = "digest of " + name;
+    submission.scene = "{\"scene\":\"" + name + "\"}";
+    submission.plan = "{\"plan\":\"" + name + "\"}";
+    const std::optional<Job> earlier = store_->add(submission);
+    return earlier ? earlier->id : submission.job.id;
+  }
+  void reopen() {
+    store_.reset();
+    store_ = open_sqlite_store(directory_.path() / "lather.db");
+  }
+
+  TemporaryDirectory directory_;
+  std::unique_ptr<Store> store_;
+};
+
+TEST_F(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
+  const std::string id = add("foam", 3);
+  reopen();
+  const std::optional<Job> job = store_->find(id);
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->name, "foam");
+  EXPECT_EQ(job->state, JobState::kQueued);
+  EXPECT_EQ(job->priority, 3);
+  EXPECT_EQ(job->points, 1234u);
+  EXPECT_EQ(job->frame_rate, 24);
+  EXPECT_EQ(job->progress.frames, 4);
+  EXPECT_EQ(store_->plan(id), "{\"plan\":\"foam\"}");
+  EXPECT_EQ(store_->scene(id), "{\"scene\":\"foam\"}");
+  EXPECT_FALSE(store_->find(new_job_id()));
+}
+
+TEST_F(StoreTest, LeasesByPriorityThenAgeAndEachJobOnce) {
+  const std::string first = add("first");
+  const std::string second = add("second");
+  const std::string urgent = add("urgent", 1);
+  EXPECT_EQ(store_->lease()->id, urgent);
+  const std::optional<Job> leased = store_->lease();
+  EXPECT_EQ(leased->id, first);
+  EXPECT_EQ(leased->state, JobState::kRunning);
+  EXPECT_EQ(leased->attempt, 1);
+  EXPECT_EQ(store_->lease()->id, second);
+  EXPECT_FALSE(store_->lease());
+}
+
+TEST_F(StoreTest, RefusesTransitionsThatDoNotExist) {
+  const std::string id = add("foam");
+  EXPECT_FALSE(store_->move(id, JobState::kSucceeded));
+  EXPECT_FALSE(store_->move(id, JobState::kCancelling));
+  EXPECT_EQ(store_->find(id)->state, JobState::kQueued);
+  ASSERT_TRUE(store_->lease());
+  EXPECT_TRUE(store_->move(id, JobState::kFailed, "it broke"));
+  EXPECT_EQ(store_->find(id)->error, "it broke");
+  EXPECT_GT(store_->find(id)->ended, 0);
+  EXPECT_FALSE(store_->move(id, JobState::kRunning));
+  EXPECT_FALSE(store_->move(new_job_id(), JobState::kCancelled));
+}
+
+TEST_F(StoreTest, PublishesFramesOnlyWhileTheAttemptStands) {
+  const std::string id = add("foam");
+  EXPECT_FALSE(store_->publish(id, 1, {0, "sha", 10, 1}));
+  ASSERT_TRUE(store_->lease());
+  EXPECT_TRUE(store_->publish(id, 1, {0, "sha of first", 10, 1}));
+  EXPECT_FALSE(store_->publish(id, 2, {1, "sha", 10, 2}));
+  ASSERT_TRUE(store_->move(id, JobState::kCancelling));
+  EXPECT_FALSE(store_->publish(id, 1, {1, "sha", 10, 1}));
+  EXPECT_FALSE(store_->set_progress(id, 1, JobProgress{}));
+  EXPECT_EQ(store_->count_frames(id), 1u);
+}
+
+TEST_F(StoreTest, KeepsOldFramesUntilANewAttemptReplacesThem) {
+  const std::string id = add("foam");
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->publish(id, 1, {0, "old", 10, 1}));
+  ASSERT_TRUE(store_->publish(id, 1, {1, "old", 10, 1}));
+  reopen();
+  EXPECT_EQ(store_->recover(), 1u);
+  const std::optional<Job> again = store_->lease();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->attempt, 2);
+  ASSERT_TRUE(store_->publish(id, 2, {0, "new", 11, 2}));
+  EXPECT_FALSE(store_->publish(id, 1, {1, "late", 12, 1}));
+  const std::vector<FrameRow> frames = store_->frames(id);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].sha256, "new");
+  EXPECT_EQ(frames[0].attempt, 2);
+  EXPECT_EQ(frames[1].sha256, "old");
+  EXPECT_EQ(frames[1].attempt, 1);
+}
+
+TEST_F(StoreTest, RecoveryQueuesRunningJobsAndCancelsCancellingOnes) {
+  const std::string running = add("running");
+  const std::string cancelling = add("cancelling");
+  const std::string queued = add("queued");
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->move(cancelling, JobState::kCancelling));
+  EXPECT_EQ(store_->recover(), 2u);
+  EXPECT_EQ(store_->find(running)->state, JobState::kQueued);
+  EXPECT_EQ(store_->find(cancelling)->state, JobState::kCancelled);
+  EXPECT_EQ(store_->find(queued)->state, JobState::kQueued);
+}
+
+TEST_F(StoreTest, PagesThroughAllJobsNewestFirstWhileNewOnesArrive) {
+  std::vector<std::string> added;
+  for (int i = 0; i < 7; ++i) added.push_back(add("job " + std::to_string(i)));
+  Listing listing;
+  listing.limit = 3;
+  std::vector<std::string> seen;
+  do {
+    const JobPage page = store_->list(listing);
+    for (const Job& job : page.jobs) seen.push_back(job.id);
+    listing.cursor = page.next_cursor;
+    add("arrives in between");
+  } while (!listing.cursor.empty());
+  EXPECT_EQ(seen, std::vector<std::string>(added.rbegin(), added.rend()));
+}
+
+TEST_F(StoreTest, ListsByStateAndRefusesForgedCursors) {
+  add("a");
+  add("b");
+  ASSERT_TRUE(store_->lease());
+  Listing listing;
+  listing.state = JobState::kRunning;
+  EXPECT_EQ(store_->list(listing).jobs.size(), 1u);
+  for (const char* forged : {"x", "-1", "1 OR 1=1", "99999999999999999999"}) {
+    listing.cursor = forged;
+    EXPECT_THROW(static_cast<void>(store_->list(listing)), std::invalid_argument) << forged;
+  }
+}
+
+TEST_F(StoreTest, TheSameIdempotencyKeyMakesOneJob) {
+  const std::string first = add("foam", 0, "key-1");
+  EXPECT_EQ(add("foam", 0, "key-1"), first);
+  EXPECT_NE(add("foam", 0, "key-2"), first);
+  EXPECT_NE(add("foam"), add("foam"));
+  EXPECT_EQ(store_->count(JobState::kQueued), 4u);
+}
+
+TEST_F(StoreTest, RemovesOnlyEndedJobsAndTheirFrames) {
+  const std::string id = add("foam");
+  EXPECT_FALSE(store_->remove(id));
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->publish(id, 1, {0, "sha", 10, 1}));
+  EXPECT_FALSE(store_->remove(id));
+  ASSERT_TRUE(store_->move(id, JobState::kSucceeded));
+  EXPECT_TRUE(store_->remove(id));
+  EXPECT_FALSE(store_->find(id));
+  EXPECT_TRUE(store_->frames(id).empty());
+}
+
+TEST_F(StoreTest, GivesEachJobToOneOfManyThreads) {
+  constexpr int kJobs = 24;
+  for (int i = 0; i < kJobs; ++i) add("job");
+  std::vector<std::vector<std::string>> leased(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : leased)
+    threads.emplace_back([this, &mine] {
+      while (const std::optional<Job> job = store_->lease()) mine.push_back(job->id);
+    });
+  for (std::thread& thread : threads) thread.join();
+  std::set<std::string> all;
+  std::size_t count = 0;
+  for (const auto& mine : leased) {
+    count += mine.size();
+    all.insert(mine.begin(), mine.end());
+  }
+  EXPECT_EQ(count, static_cast<std::size_t>(kJobs));
+  EXPECT_EQ(all.size(), static_cast<std::size_t>(kJobs));
+}
+
+}  // namespace
+}  // namespace lather::server
