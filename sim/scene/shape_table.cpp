@@ -161,8 +161,8 @@ bool read_shape(const Value& value, ShapePtr& out, const Place& place) {
   if (value.object() == nullptr || !placement().read_fields(value, placed, place) || !good) return false;
   out = shape;
   if (!moves(placed)) return true;
-  placed.shape = shape;
-  out = std::make_shared<const Shape>(Shape{placed});
+  out = std::make_shared<const Shape>(
+      Shape{PlacedShape(shape, placed.translate, placed.rotate_deg, placed.scale)});
   return true;
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/shape/placement.h"
 #include "sim/shape/shape.h"
 #include "sim/shape/unbounded.h"
 
@@ -86,10 +85,9 @@ struct Bounds {
   }
   Box3 operator()(const DifferenceShape& s) const { return bounds(*s.of.front(), world); }
   Box3 operator()(const PlacedShape& s) const {
-    const Mat3 rotation = rotation_of(s.rotate_deg);
-    const Box3 local_world =
-        transformed(world, rotation.transpose() / s.scale, -(rotation.transpose() * s.translate) / s.scale);
-    const Box3 out = transformed(bounds(*s.shape, local_world), s.scale * rotation, s.translate);
+    const Box3 local_world = transformed(world, s.rotation.transpose() / s.scale,
+                                         -(s.rotation.transpose() * s.translate) / s.scale);
+    const Box3 out = transformed(bounds(*s.shape, local_world), s.scale * s.rotation, s.translate);
     return is_unbounded(*s.shape) ? intersection(out, world) : out;
   }
 };

@@ -34,7 +34,7 @@ struct Rotation {  ///< about the axis through `center`
 struct Keyframe {
   double time = 0;                 ///< s, ascending
   Vec3 translate = Vec3::Zero();   ///< m
-  Vec3 rotate_deg = Vec3::Zero();  ///< about the obstacle's own origin; x, then y, then z
+  Vec3 rotate_deg = Vec3::Zero();  ///< about the scene's origin, before the shift; x, then y, then z
 };
 struct Keyframes {  ///< cubic Hermite in between (Catmull-Rom tangents), held before the first and after the
                     ///< last

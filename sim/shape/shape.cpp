@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/shape/placement.h"
 #include "sim/shape/primitives.h"
@@ -42,14 +43,20 @@ struct Distance {
     return d;
   }
   double operator()(const PlacedShape& s) const {
-    Vec3 local = x - s.translate;
-    if (!s.rotate_deg.isZero(0)) local = rotation_of(s.rotate_deg).transpose() * local;
+    const Vec3 local = s.rotation.transpose() * (x - s.translate);
     if (s.scale == 1) return distance(*s.shape, local);
     return s.scale * distance(*s.shape, local / s.scale);
   }
 };
 
 }  // namespace
+
+PlacedShape::PlacedShape(ShapePtr placed, const Vec3& by, const Vec3& turned_deg, double scaled)
+    : shape(std::move(placed)),
+      translate(by),
+      rotate_deg(turned_deg),
+      rotation(rotation_of(turned_deg)),
+      scale(scaled) {}
 
 double distance(const Shape& shape, const Vec3& x) {
   return std::visit(Distance{x}, shape.kind);

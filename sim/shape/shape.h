@@ -62,10 +62,15 @@ struct IntersectionShape {
 struct DifferenceShape {  ///< the first without all others
   std::vector<ShapePtr> of;
 };
-struct PlacedShape {  ///< x_world = translate + rotate * (scale * x_local)
+struct PlacedShape {  ///< x_world = translate + rotation * (scale * x_local)
+  PlacedShape() = default;
+  explicit PlacedShape(ShapePtr placed, const Vec3& by = Vec3::Zero(), const Vec3& turned_deg = Vec3::Zero(),
+                       double scaled = 1);
   ShapePtr shape;
   Vec3 translate = Vec3::Zero();
   Vec3 rotate_deg = Vec3::Zero();  ///< about x, then y, then z (fixed axes)
+  Mat3 rotation =
+      Mat3::Identity();  ///< rotate_deg as a matrix, made once by the constructor: distance() is hot
   double scale = 1;
 };
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "sim/shape/mesh_builder.h"
-#include "sim/shape/placement.h"
 #include "sim/shape/shape.h"
 #include "sim/shape/unbounded.h"
 
@@ -53,9 +52,8 @@ double signed_area(const std::vector<Vec2>& polygon) {
 }
 
 TriangleMesh placed(TriangleMesh mesh, const PlacedShape& s) {
-  const Mat3 rotation = rotation_of(s.rotate_deg);
   const auto turned = [&](const std::array<float, 3>& v, double scale, const Vec3& shift) {
-    const Vec3 moved = rotation * (scale * Vec3(v[0], v[1], v[2])) + shift;
+    const Vec3 moved = s.rotation * (scale * Vec3(v[0], v[1], v[2])) + shift;
     return std::array<float, 3>{static_cast<float>(moved.x()), static_cast<float>(moved.y()),
                                 static_cast<float>(moved.z())};
   };
@@ -130,9 +128,8 @@ struct Tessellate {
     return lathe(strips, detail);
   }
   TriangleMesh operator()(const PlacedShape& s) const {
-    const Mat3 rotation = rotation_of(s.rotate_deg);
     if (const auto* plane = std::get_if<PlaneShape>(&s.shape->kind)) {
-      return tessellation::plane_polygon(s.translate, rotation * plane->normal, world);
+      return tessellation::plane_polygon(s.translate, s.rotation * plane->normal, world);
     }
     if (is_unbounded(*s.shape)) return tessellation::from_distance(shape, world, detail);
     return placed(tessellate(*s.shape, world, detail / s.scale), s);

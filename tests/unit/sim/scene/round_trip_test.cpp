@@ -93,7 +93,7 @@ TEST(RoundTrip, DoesNotDependOnTheOrderOfKeysOrOnDefaultsWrittenOut) {
 TEST(RoundTrip, OfAPlacementPlacedAgainKeepsTheShape) {
   Scene s = parse_scene(small_scene());
   s.bodies[0].shape =
-      std::make_shared<const Shape>(Shape{PlacedShape{s.bodies[0].shape, {0.1, 0, 0}, {0, 0, 30}, 0.5}});
+      std::make_shared<const Shape>(Shape{PlacedShape(s.bodies[0].shape, {0.1, 0, 0}, {0, 0, 30}, 0.5)});
   const Scene back = parse_scene(to_json(s));
   for (const Vec3& x : {Vec3(0.1, 0.2, 0.3), Vec3(0.5, 0.5, 0.5), Vec3(1, 0, 0)}) {
     EXPECT_NEAR(distance(*back.bodies[0].shape, x), distance(*s.bodies[0].shape, x), 1e-15);

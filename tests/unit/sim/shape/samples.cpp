@@ -7,7 +7,7 @@ ShapePtr make(decltype(Shape::kind) kind) {
 }
 
 ShapePtr place(ShapePtr shape, Vec3 translate, Vec3 rotate_deg, double scale) {
-  return make(PlacedShape{std::move(shape), translate, rotate_deg, scale});
+  return make(PlacedShape(std::move(shape), translate, rotate_deg, scale));
 }
 
 std::vector<Sample> samples() {
