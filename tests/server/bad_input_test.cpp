@@ -122,9 +122,9 @@ TEST_F(BadInput, BytesThatBreakTheRulesAreRefusedAndTheServerGoesOn) {
   EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "Content-Length: 5\r\n\r\nhello"), 400);
   EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "X: a%0d%0ab\r\n\r\n"), 400);
   EXPECT_EQ(status("GET /" + std::string(4096, 'a') + " HTTP/1.1\r\n" + host + "\r\n"), 414);
-  EXPECT_EQ(status("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"), 403);
+  EXPECT_EQ(status("GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n"), 403);
   EXPECT_EQ(status("GET / HTTP/1.1\r\n\r\n"), 400);
-  EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "Origin: null\r\n\r\n"), 403);
+  EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "Origin: null\r\nConnection: close\r\n\r\n"), 403);
   EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "X: " + std::string(64 << 10, 'a') + "\r\n\r\n"), 431);
   EXPECT_EQ(status("\x16\x03\x01\x02 TLS hello\r\n\r\n"), 400);
   EXPECT_EQ(request(port(), "GET", "/healthz").status, 200);

@@ -43,8 +43,8 @@ class JobLife : public Blackbox {
  protected:
   std::vector<std::string> frame_hashes(const std::string& id) {
     std::vector<std::string> hashes;
-    for (const Json& frame : Json::parse(request(port(), "GET", path(id, "/frames")).body).at("frames"))
-      hashes.push_back(frame.at("sha256"));
+    const Json listing = Json::parse(request(port(), "GET", path(id, "/frames")).body);
+    for (const Json& row : listing.at("frames")) hashes.push_back(row.at("sha256"));
     return hashes;
   }
   std::string frame(const std::string& id, int index) {
