@@ -21,4 +21,5 @@ STOPSIGNAL SIGTERM
 HEALTHCHECK --interval=15s --timeout=5s --start-period=5s \
   CMD ["bash", "-c", "exec 3<>/dev/tcp/127.0.0.1/8080 && printf 'GET /healthz HTTP/1.0\\r\\nHost: 127.0.0.1\\r\\n\\r\\n' >&3 && head -n 1 <&3 | grep -q ' 200 '"]
 ENTRYPOINT ["lather"]
-CMD ["serve", "--host", "0.0.0.0", "--port", "8080", "--data", "/data"]
+# Within the container every address is the container's own; who may reach it is decided by -p.
+CMD ["serve", "--host", "0.0.0.0", "--allow-remote", "--port", "8080", "--data", "/data"]

@@ -8,18 +8,18 @@ const facts = (entries) =>
 
 function measured(report) {
   const frames = report.frames ?? [];
+  if (frames.length < 2) return null;
   const first = frames[0];
   const last = frames[frames.length - 1];
-  if (!first || frames.length < 2) return null;
-  const worst = (key) => Math.max(...frames.map((frame) => frame[key]));
-  const energy = (frame) =>
-    frame.kinetic_energy + frame.elastic_volume_energy + frame.elastic_shear_energy + frame.gravity_energy;
+  const energy = (frame) => Object.values(frame.energy).reduce((sum, part) => sum + part, 0);
   return h("section", {}, h("h3", {}, "Measured"), facts([
     ["mass", `${number(last.mass)} kg (change ${number(last.mass - first.mass)})`],
     ["energy, first to last frame", `${number(energy(first))} to ${number(energy(last))} J`],
-    ["largest speed", `${number(worst("max_speed"))} m/s`],
-    ["volume ratio J, last frame", `${number(last.min_volume_ratio)} to ${number(last.max_volume_ratio)}`],
-    ["density within 5 %, last frame", last.interior_nodes ? `${number(100 * last.density_within_5_percent)} %` : "–"],
+    ["largest speed", `${number(Math.max(...frames.map((frame) => frame.max_speed)))} m/s`],
+    ["volume ratio J, last frame", `${number(last.volume_ratio.min)} to ${number(last.volume_ratio.max)}`],
+    ["density within 5 %, last frame",
+      last.density.interior_nodes ? `${number(100 * last.density.within_5_percent)} % of interior nodes` : "–"],
+    ["points removed", report.points_removed ? number(report.points_removed) : ""],
   ]));
 }
 
@@ -38,9 +38,8 @@ function stages(report) {
 
 /** The report as an element. */
 export function reportElement(report) {
-  const steps = report.smallest_time_step === report.largest_time_step
-    ? `${number(report.largest_time_step)} s`
-    : `${number(report.smallest_time_step)} to ${number(report.largest_time_step)} s`;
+  const {smallest, largest} = report.time_step ?? {};
+  const steps = number(smallest) === number(largest) ? `${number(largest)} s` : `${number(smallest)} to ${number(largest)} s`;
   const run = h("section", {}, h("h3", {}, "Run"), facts([
     ["steps", number(report.steps)],
     ["time step", report.steps ? steps : ""],
