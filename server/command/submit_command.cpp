@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -38,14 +39,20 @@ double number_of(const Value* object, const char* key, double otherwise) {
   return otherwise;
 }
 
+/// As in the scene's file: what is sent wraps it in {"scene": …}.
+std::string pointer_in_scene(const std::string& pointer) {
+  static constexpr std::string_view kWrap = "/scene";
+  return pointer.compare(0, kWrap.size(), kWrap) == 0 ? pointer.substr(kWrap.size()) : pointer;
+}
+
 /// The server's problem document as the error that the command line reports.
 [[noreturn]] void refuse(const ApiClient::Answer& answer) {
   const Value document = parse_json(answer.body);
   std::vector<Problem> problems;
   if (const Value* errors = document.find("errors"); errors && errors->array())
     for (const Value& error : *errors->array())
-      problems.push_back({text_of(error, "pointer"), text_of(error, "value"), text_of(error, "allowed"),
-                          text_of(error, "message")});
+      problems.push_back({pointer_in_scene(text_of(error, "pointer")), text_of(error, "value"),
+                          text_of(error, "allowed"), text_of(error, "message")});
   if (problems.empty()) throw std::runtime_error("the server answered: " + text_of(document, "detail"));
   throw InputError(std::move(problems));
 }
