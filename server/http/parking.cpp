@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 // A refused client may still be sending. Closing then would reset the connection and lose the answer, so what
 // it sends is read and thrown away, for this long and this much.
 constexpr auto kDrainDeadline = std::chrono::milliseconds(1500);
-constexpr std::size_t kMostDrained = std::size_t{16} << 20;
+constexpr std::size_t kMostDrained = std::size_t{128} << 20;
 constexpr std::size_t kReadAtOnce = 65536;
 
 struct Connection {

@@ -14,7 +14,7 @@ namespace lather::server {
 
 struct RunSettings {
   std::filesystem::path frames;  ///< directory of 00000.png …; made if missing
-  std::filesystem::path report;  ///< file; written at the end, however the run ends
+  std::filesystem::path report;  ///< file; written when the run ends in one of its three states
   int threads = 0;               ///< of a step; 0: all cores
   std::string render_backend = "auto";
 };

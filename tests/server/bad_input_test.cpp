@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -128,6 +129,23 @@ TEST_F(BadInput, BytesThatBreakTheRulesAreRefusedAndTheServerGoesOn) {
   EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "X: " + std::string(64 << 10, 'a') + "\r\n\r\n"), 431);
   EXPECT_EQ(status("\x16\x03\x01\x02 TLS hello\r\n\r\n"), 400);
   EXPECT_EQ(request(port(), "GET", "/healthz").status, 200);
+}
+
+TEST_F(BadInput, FloodsOfBytesDoNotFillTheMemory) {
+  const auto peak_kib = [this] {
+    std::ifstream status_file("/proc/" + std::to_string(server_->pid()) + "/status");
+    for (std::string line; std::getline(status_file, line);)
+      if (line.compare(0, 6, "VmHWM:") == 0) return std::stol(line.substr(6));
+    return -1L;
+  };
+  const long before = peak_kib();
+  ASSERT_GT(before, 0);
+  const std::string start_line = "POST /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string flood(std::size_t{64} << 20, 'a');
+  EXPECT_EQ(status(start_line + "X: " + flood + "\r\n\r\n"), 431);
+  EXPECT_EQ(status(start_line + "Transfer-Encoding: chunked\r\n\r\n4000000\r\n" + flood), 411);
+  EXPECT_EQ(status(start_line + "Content-Length: 67108864\r\n\r\n" + flood), 413);
+  EXPECT_LT(peak_kib() - before, 16 << 10);
 }
 
 TEST_F(BadInput, ARefusedRequestTakesWhatFollowsItWithIt) {
