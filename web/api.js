@@ -17,17 +17,23 @@ const jobPath = (id, rest = "") => `jobs/${encodeURIComponent(id)}${rest}`;
 export const jobUrl = (id, rest) => url(jobPath(id, rest));
 export const frameUrl = (id, index) => jobUrl(id, `/frames/${index}.png`);
 
-async function call(path, options = {}) {
+/** The answer's text; throws ApiError unless it is a success. */
+async function callText(path, options = {}) {
   const response = await fetch(url(path), {signal: AbortSignal.timeout(patienceMs), ...options});
   const text = await response.text();
-  let body = {};
+  if (response.ok) return text;
+  let problem = {detail: text.slice(0, 200)};
   try {
-    body = text ? JSON.parse(text) : {};
+    problem = JSON.parse(text);
   } catch {
-    body = {detail: text.slice(0, 200)};
+    // A proxy's page, not the server's document: its beginning has to do.
   }
-  if (!response.ok) throw new ApiError(response.status, body);
-  return body;
+  throw new ApiError(response.status, problem);
+}
+
+async function call(path, options = {}) {
+  const text = await callText(path, options);
+  return text ? JSON.parse(text) : {};
 }
 
 const post = (path, body) =>
@@ -45,4 +51,4 @@ export const deleteJob = (id) => call(jobPath(id), {method: "DELETE"});
 export const postJob = (request) => post("jobs", request);
 export const postPlan = (request) => post("plan", request);
 export const listScenes = () => call("scenes");
-export const getScene = (name) => call(`scenes/${encodeURIComponent(name)}`);
+export const getSceneText = (name) => callText(`scenes/${encodeURIComponent(name)}`);

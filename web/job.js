@@ -17,8 +17,8 @@ export class JobView {
 
     this.heading = h("h2", {}, id);
     this.state = h("span", {class: "state", role: "status"});
-    this.cancel = h("button", {class: "button", hidden: true, onclick: () => this.act(cancelJob)}, "Cancel");
-    this.remove = h("button", {class: "button", hidden: true, onclick: () => this.confirmRemove()}, "Delete");
+    this.cancel = h("button", {class: "button", hidden: true, onclick: () => this.act(() => this.cancelNow())}, "Cancel");
+    this.remove = h("button", {class: "button", hidden: true, onclick: () => this.act(() => this.removeNow())}, "Delete");
     this.bar = h("progress", {max: 1, "aria-label": "progress"});
     this.text = h("p", {class: "quiet"});
     this.error = h("p", {class: "failure", role: "alert", hidden: true});
@@ -77,8 +77,8 @@ export class JobView {
   details(job) {
     const progress = job.progress ?? {};
     const parts = [progressText(job)];
-    if (progress.time > 0) parts.push(`${number(progress.time)} s simulated`);
-    if (progress.step > 0) parts.push(`step ${number(progress.step)}`);
+    if (progress.time > 0 && job.state !== "succeeded") parts.push(`${number(progress.time)} s simulated`);
+    if (progress.step > 0 && job.state !== "succeeded") parts.push(`step ${number(progress.step)}`);
     if (job.state === "running" && progress.seconds_per_frame > 0)
       parts.push(`${number(progress.seconds_per_frame)} s per frame`);
     if (job.points) parts.push(`${number(job.points)} points`);
@@ -98,20 +98,21 @@ export class JobView {
 
   async act(action) {
     try {
-      await action(this.id);
-      this.complete = false;
-      await this.refresh();
+      await action();
     } catch (error) {
       this.fail(error.message);
     }
   }
 
-  confirmRemove() {
+  async cancelNow() {
+    await cancelJob(this.id);
+    await this.refresh();
+  }
+
+  async removeNow() {
     if (!window.confirm(`Delete “${this.title}” with all its frames?`)) return;
-    this.act(async (id) => {
-      await deleteJob(id);
-      location.hash = "";
-    });
+    await deleteJob(this.id);
+    location.hash = "";
   }
 
   seek(frame) {

@@ -1,6 +1,6 @@
 // A box to post a scene: what would be posted can be planned first, and what is wrong is shown where it stands.
 
-import {getScene, listScenes, postJob, postPlan} from "./api.js";
+import {getSceneText, listScenes, postJob, postPlan} from "./api.js";
 import {bytes, h, number} from "./dom.js";
 import {locate} from "./pointer.js";
 
@@ -53,10 +53,9 @@ export class SubmitView {
   async load(name) {
     if (name === "") return;
     try {
-      const scene = await getScene(name);
-      this.text.value = `${JSON.stringify(scene, null, 2)}\n`;
+      this.text.value = await getSceneText(name);
       this.edited();
-      if ("preview" in (scene.sizes ?? {})) this.size.value = "preview";
+      if ([...this.size.options].some((option) => option.value === "preview")) this.size.value = "preview";
     } catch (error) {
       this.showMessage(error.message);
     }
