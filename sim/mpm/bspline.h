@@ -15,6 +15,9 @@ struct Weights1 {
   T d[4];
 };
 
+// One weight is what the others leave of 1. Computed each for itself, their constants (1/6, 2/3) would round the sum off 1
+// by the same bit at every point, and momentum would drift by an epsilon per step instead of walking at random.
+
 /// Cubic, at fraction f in [0, 1] of the cell: first = -1.
 template <class T>
 inline Weights1<T> cubic_weights(const T& f) {
@@ -23,12 +26,12 @@ inline Weights1<T> cubic_weights(const T& f) {
   Weights1<T> r;
   r.w[0] = g * g * g * R(1.0 / 6);
   r.w[1] = f * f * (f * R(0.5) - R(1)) + R(2.0 / 3);
-  r.w[2] = g * g * (g * R(0.5) - R(1)) + R(2.0 / 3);
   r.w[3] = f * f * f * R(1.0 / 6);
+  r.w[2] = (T(R(1)) - r.w[1]) - (r.w[0] + r.w[3]);
   r.d[0] = g * g * R(-0.5);
   r.d[1] = f * (f * R(1.5) - R(2));
-  r.d[2] = g * (R(2) - g * R(1.5));
   r.d[3] = f * f * R(0.5);
+  r.d[2] = T(R(0)) - r.d[1] - (r.d[0] + r.d[3]);
   return r;
 }
 
@@ -42,8 +45,8 @@ inline Weights1<T> quadratic_weights(const T& u) {
   const T zero(R(0));
   Weights1<T> r;
   r.w[0] = a * a * R(0.5);
-  r.w[1] = T(R(0.75)) - u * u;
   r.w[2] = b * b * R(0.5);
+  r.w[1] = T(R(1)) - (r.w[0] + r.w[2]);
   r.w[3] = zero;
   r.d[0] = -a;
   r.d[1] = u * R(-2);

@@ -50,7 +50,7 @@ class Reader {
 /// Calls visit(field) for every plain field of a frame's figures, in a fixed order.
 template <class Measure, class Visit>
 void for_figures(Measure& m, const Visit& visit) {
-  visit(m.frame), visit(m.time), visit(m.step), visit(m.points), visit(m.mass);
+  visit(m.frame), visit(m.time), visit(m.step), visit(m.points), visit(m.fingerprint), visit(m.mass);
   for (auto* v : {&m.momentum, &m.angular_momentum, &m.center_of_mass, &m.lowest, &m.highest})
     for (int a = 0; a < 3; ++a) visit((*v)[a]);
   visit(m.kinetic_energy), visit(m.elastic_volume_energy), visit(m.elastic_shear_energy),

@@ -1,5 +1,6 @@
 #include "sim/particles/particle_set.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -16,7 +17,10 @@ void ParticleSet<Real>::add(const Vec3& position, const Vec3& velocity, const Ma
                             std::uint32_t id) {
   const int lane = static_cast<int>(size_ % kTile);
   const std::size_t t = size_ / kTile;
-  if (lane == 0) lines_.resize(lines_.size() + static_cast<std::size_t>(layout_.stride) / sizeof(Line));
+  if (lane == 0) {
+    lines_.resize(lines_.size() + static_cast<std::size_t>(layout_.stride) / sizeof(Line));
+    std::fill_n(values<std::uint32_t>(t, Field::kId), kTile, kNoPoint);
+  }
   for (int a = 0; a < dimension_; ++a) {
     const double x = (position[a] - origin_[a]) / cell_;
     const double whole = std::floor(x);

@@ -83,10 +83,6 @@ void ParticleSet<Real>::fill_empty_lanes(std::size_t range) {
 
 template <class Real>
 std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
-  if (ranges_.empty() && size_ % kTile != 0)  // points were added: mark the lanes behind the last one
-    for (int lane = static_cast<int>(size_ % kTile); lane < kTile; ++lane)
-      values<std::uint32_t>(size_ / kTile, Field::kId)[lane] = kNoPoint;
-
   const std::size_t tile_count = tiles();
   const std::size_t chunk_count = (tile_count + kChunkTiles - 1) / kChunkTiles;
   std::vector<Chunk> chunks(chunk_count);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "sim/math/counter_rng.h"
 #include "sim/math/parallel.h"
 
 namespace lather {
@@ -86,8 +88,20 @@ class PointMeasure {
   double moment_;
 };
 
+/// Chains the bits of whole tiles (random_bits is a good mixer).
+std::uint64_t fingerprint(const std::byte* bytes, std::size_t count) {
+  std::uint64_t hash = count;
+  for (std::size_t i = 0; i + 8 <= count; i += 8) {  // tiles are multiples of 64 bytes
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, 8);
+    hash = random_bits(hash, word);
+  }
+  return hash;
+}
+
 void fold(FrameMeasure& sum, const FrameMeasure& part) {
   sum.points += part.points;
+  sum.fingerprint = random_bits(sum.fingerprint, part.fingerprint);
   sum.mass += part.mass;
   sum.momentum += part.momentum;
   sum.angular_momentum += part.angular_momentum;
@@ -117,7 +131,9 @@ FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Re
         [&](std::int64_t c) {
           FrameMeasure part = PointMeasure<Real>::empty();
           const std::size_t first = static_cast<std::size_t>(c) * kChunkTiles;
-          for (std::size_t t = first; t < std::min(first + kChunkTiles, set.tiles()); ++t)
+          const std::size_t end = std::min(first + kChunkTiles, set.tiles());
+          part.fingerprint = fingerprint(set.tile(first), (end - first) * static_cast<std::size_t>(set.layout().stride));
+          for (std::size_t t = first; t < end; ++t)
             for (int lane = 0; lane < kTile; ++lane)
               if (set.template values<std::uint32_t>(t, Field::kId)[lane] != kNoPoint)
                 points.add(part, t, lane);

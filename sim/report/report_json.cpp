@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "sim/report/report.h"
@@ -6,6 +7,12 @@ namespace lather {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::string hex(std::uint64_t bits) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(bits));
+  return text;
+}
 
 Json vector(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
@@ -16,6 +23,7 @@ Json frame(const FrameMeasure& m) {
           {"time", m.time},
           {"step", m.step},
           {"points", m.points},
+          {"fingerprint", hex(m.fingerprint)},
           {"mass", m.mass},
           {"momentum", vector(m.momentum)},
           {"angular_momentum", vector(m.angular_momentum)},

@@ -1,0 +1,50 @@
+#include "tests/support/reference_data.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace lather::testing_support {
+namespace {
+
+nlohmann::json load(const std::string& name) {
+  std::ifstream file(std::string(LATHER_TEST_DATA) + "/" + name);
+  if (!file) throw std::runtime_error("cannot open " + name);
+  return nlohmann::json::parse(file);
+}
+
+}  // namespace
+
+std::vector<ReturnMapCase> return_map_cases() {
+  std::vector<ReturnMapCase> cases;
+  const nlohmann::json data = load("hb_return_map.json");
+  for (const auto& c : data.at("cases"))
+    cases.push_back({c.at("s_pre"), c.at("mu_tilde_dt"), c.at("sigma_y"), c.at("eta"), c.at("h"),
+                     std::stod(c.at("excess").get<std::string>())});
+  return cases;
+}
+
+std::vector<SimpleShearRun> simple_shear_runs() {
+  std::vector<SimpleShearRun> runs;
+  const nlohmann::json data = load("hb_simple_shear.json");
+  for (const auto& r : data.at("runs"))
+    runs.push_back({r.at("mu"), r.at("sigma_y"), r.at("eta"), r.at("h"), r.at("shear_rate"),
+                    r.at("t").get<std::vector<double>>(), r.at("tau_xy").get<std::vector<double>>(),
+                    r.at("n1").get<std::vector<double>>(), r.at("s").get<std::vector<double>>()});
+  return runs;
+}
+
+double SimpleShearRun::largest_s() const {
+  return *std::max_element(s.begin(), s.end());
+}
+
+std::string SimpleShearRun::name() const {
+  std::ostringstream out;
+  out << "mu " << mu << " sigma_Y " << sigma_y << " eta " << eta << " h " << h << " at " << shear_rate
+      << "/s";
+  return out.str();
+}
+
+}  // namespace lather::testing_support

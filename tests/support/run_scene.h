@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/simulation.h"
+
+namespace lather::testing_support {
+
+/// A ball of shaving cream (radius 0.1 m, cells of 25 mm) in free space, as JSON; tests change it by
+/// overrides.
+std::string ball_scene();
+
+/// Runs all frames of a scene and returns the report.
+Report run(const std::string& scene_json, const std::vector<Override>& overrides, int threads = 1,
+           KernelLevel level = best_kernel_level());
+
+}  // namespace lather::testing_support

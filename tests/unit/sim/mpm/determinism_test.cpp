@@ -1,0 +1,82 @@
+// The same answer, every time: for any number of threads, and after save and restore.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/kernel_levels.h"
+#include "tests/support/run_scene.h"
+
+namespace lather {
+namespace {
+
+using testing_support::run;
+
+/// Foam and oobleck fall on frictional ground beside an adhesive moving block; points sort, yield and
+/// collide.
+std::string busy_scene(const char* precision) {
+  return std::string(
+             R"({"lather": 1, "name": "busy", "domain": {"min": [-0.3, 0, -0.3], "max": [0.3, 0.6, 0.3]},
+    "duration": 0.2, "frame_rate": 20, "spacing": 0.02, "jitter": 0.3, "seed": 7,
+    "materials": [{"name": "foam", "preset": "shaving-cream"}, {"name": "goo", "preset": "oobleck"}],
+    "bodies": [
+      {"name": "a", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0, 0.2, 0]}, "velocity": [0, -2, 0]},
+      {"name": "b", "material": "goo", "shape": {"type": "box", "size": [0.12, 0.12, 0.12], "translate": [0.1, 0.42, 0]}, "velocity": [-0.5, -3, 0]}],
+    "obstacles": [
+      {"name": "ground", "shape": {"type": "plane", "translate": [0, 0.06, 0]}, "friction": 0.4},
+      {"name": "block", "shape": {"type": "box", "size": [0.1, 0.3, 0.3], "translate": [-0.14, 0.2, 0]}, "adhesive": true,
+       "motion": {"type": "oscillation", "direction": [1, 0, 0], "amplitude": 0.02, "frequency": 8}}],
+    "numerics": {"precision": ")") +
+         precision + R"("}})";
+}
+
+class Determinism : public testing::TestWithParam<KernelLevel> {};
+
+TEST_P(Determinism, FinalStateIsBitEqualForAnyNumberOfThreads) {
+  for (const char* precision : {"float", "double"}) {
+    const std::vector<Override> shorter = {{"/duration", precision[0] == 'f' ? "0.2" : "0.05"}};
+    const Report one = run(busy_scene(precision), shorter, 1, GetParam());
+    ASSERT_GT(one.frames.back().elastic_shear_energy, 0);
+    ASSERT_NE(one.frames.front().fingerprint, one.frames.back().fingerprint);
+    for (const int threads : {2, 3, 8}) {
+      const Report many = run(busy_scene(precision), shorter, threads, GetParam());
+      EXPECT_EQ(many.steps, one.steps);
+      for (std::size_t f = 0; f < one.frames.size(); ++f)
+        EXPECT_EQ(many.frames[f].fingerprint, one.frames[f].fingerprint)
+            << precision << ", frame " << f << ", " << threads;
+    }
+  }
+}
+
+TEST_P(Determinism, ARestoredRunGoesOnBitEqual) {
+  const Scene scene = parse_scene(busy_scene("float"));
+  const Plan plan = make_plan(scene, {GetParam()});
+  const auto go_on = [](const Progress&) { return true; };
+  const auto whole = Simulation::create(plan, 2);
+  for (int i = 0; i <= 2; ++i) whole->step_to_frame(i, go_on);
+  // Stop between two frames, in the middle of things.
+  int left = 5;
+  EXPECT_FALSE(whole->step_to_frame(3, [&](const Progress&) { return --left > 0; }));
+  const std::string saved = whole->save();
+  whole->step_to_frame(4, go_on);
+
+  const auto resumed = Simulation::create(plan, 1);
+  resumed->restore(saved);
+  resumed->step_to_frame(4, go_on);
+  EXPECT_EQ(resumed->report().frames.back().fingerprint, whole->report().frames.back().fingerprint);
+  EXPECT_EQ(resumed->report().steps, whole->report().steps);
+}
+
+TEST_P(Determinism, DamagedOrForeignCheckpointsAreRefused) {
+  const auto simulation = Simulation::create(make_plan(parse_scene(busy_scene("float")), {GetParam()}), 1);
+  const std::string good = simulation->save();
+  EXPECT_THROW(simulation->restore(good.substr(0, good.size() - 1)), InputError);
+  EXPECT_THROW(simulation->restore(good + "x"), InputError);
+  EXPECT_THROW(simulation->restore("not a checkpoint at all"), InputError);
+  const auto other = Simulation::create(make_plan(parse_scene(busy_scene("double")), {GetParam()}), 1);
+  EXPECT_THROW(other->restore(good), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, Determinism, testing::ValuesIn(testing_support::levels_here()),
+                         testing_support::level_name);
+
+}  // namespace
+}  // namespace lather

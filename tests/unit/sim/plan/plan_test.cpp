@@ -1,0 +1,113 @@
+// A plan holds what the scene needs and no more; what it says comes true.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/plan/step_bound.h"
+#include "tests/support/run_scene.h"
+
+namespace lather {
+namespace {
+
+using testing_support::ball_scene;
+
+Plan plan_of(const std::vector<Override>& overrides) {
+  return make_plan(parse_scene(ball_scene(), "", overrides));
+}
+
+bool has_stage(const Plan& p, const std::string& name) {
+  return std::find(p.stages.begin(), p.stages.end(), name) != p.stages.end();
+}
+bool has_field(const Plan& p, const std::string& name) {
+  const auto& f = p.materials.at(0).fields;
+  return std::any_of(f.begin(), f.end(), [&](const PlannedField& x) { return x.name == name; });
+}
+
+TEST(Plan, FoamWithoutExtrasTakes64BytesAPointInFloat) {
+  const Plan p = plan_of({});
+  EXPECT_EQ(p.materials.at(0).bytes_per_point, 64);
+  EXPECT_FALSE(has_field(p, "affine velocity C"));
+  EXPECT_FALSE(has_field(p, "plastic strain"));
+}
+
+TEST(Plan, FieldsFollowTheSceneAndNothingElse) {
+  EXPECT_TRUE(has_field(plan_of({{"/numerics/transfer", "apic"}}), "affine velocity C"));
+  EXPECT_TRUE(has_field(plan_of({{"/look/color_by", "plastic_strain"}}), "plastic strain"));
+  EXPECT_LT(plan_of({{"/dimension", "2"}}).materials.at(0).bytes_per_point, 64);
+}
+
+TEST(Plan, ASceneWithoutContactHasNoCollisionStages) {
+  const Plan free_space = plan_of({});
+  EXPECT_FALSE(has_stage(free_space, "grid collisions"));
+  EXPECT_FALSE(has_stage(free_space, "particle collisions"));
+  const Plan walled = plan_of({{"/domain/boundary", "slip"}});
+  EXPECT_TRUE(has_stage(walled, "grid collisions"));
+  EXPECT_TRUE(has_stage(walled, "particle collisions"));
+}
+
+TEST(Plan, StepBoundIsTheTimeOfAWaveThroughACell) {
+  const Plan p = plan_of({{"/numerics/time_step", "0"}});
+  const double c = std::sqrt((109e3 + 4.0 / 3.0 * 290) / 77.7);
+  EXPECT_NEAR(p.materials.at(0).wave_speed, c, 1e-9);
+  EXPECT_NEAR(p.step_bound, 0.025 / c, 1e-12);
+  EXPECT_LE(p.time_step, 0.4 * p.step_bound * (1 + 1e-12));
+}
+
+TEST(Plan, PointsAndStepsComeTrue) {
+  const Plan p = plan_of({});
+  const Report r = testing_support::run(ball_scene(), {});
+  EXPECT_EQ(r.frames.front().points, p.points);
+  EXPECT_EQ(r.steps, p.steps);
+  // A ball of 0.1 m at 8 points per 25 mm cell.
+  EXPECT_NEAR(static_cast<double>(p.points), 4.0 / 3.0 * M_PI * 1e-3 / std::pow(0.0125, 3), 60);
+}
+
+TEST(Plan, TheBlendsViscosityFollowsItsFormulaAndWarnsWhenItOutweighsTheMaterial) {
+  // At the reference step, rho (1 - alpha) h^2 / (3 dt); cubic kernel. Oobleck at 1.6 mm and 5e-6 s: 8.5 Pa
+  // s, more than the 5 Pa s (eta = 10 Pa s^h) of the material at small rates.
+  Scene s = parse_scene(ball_scene(), "",
+                        {{"/spacing", "0.0016"}, {"/numerics/flip_blend_reference_step", "5e-6"}});
+  EXPECT_NEAR(blend_viscosity(s, 1000, 5e-6), 1000 * 0.05 * 0.0016 * 0.0016 / (3 * 5e-6), 1e-9);
+  // Per time: half the step keeps the viscosity (to the first order of 1 - alpha).
+  EXPECT_NEAR(blend_viscosity(s, 1000, 2.5e-6) / blend_viscosity(s, 1000, 5e-6), 1, 0.02);
+  const Plan coarse = plan_of({{"/materials/0/preset", "oobleck"}});
+  ASSERT_FALSE(coarse.warnings.empty());
+  EXPECT_NE(coarse.warnings.front().find("viscosity"), std::string::npos);
+  EXPECT_EQ(plan_of({{"/numerics/transfer", "apic"}}).materials.at(0).numerical_viscosity, 0);
+}
+
+TEST(Plan, SurvivesTheWayThroughJson) {
+  const Plan p = plan_of({{"/look/color_by", "speed"}});
+  const Plan q = read_plan(to_json(p));
+  EXPECT_EQ(to_json(q), to_json(p));
+  EXPECT_THROW((void)read_plan("{}"), InputError);
+  EXPECT_THROW((void)read_plan("no json"), InputError);
+}
+
+TEST(Plan, RefusesABodyWithoutPointsAndAHopelesslyFineScene) {
+  try {
+    (void)plan_of({{"/bodies/0/shape/radius", "1e-5"}});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.problems().at(0).pointer, "/bodies/0/shape");
+  }
+  try {
+    (void)plan_of({{"/spacing", "3e-4"}, {"/bodies/0/shape/radius", "3"}});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.problems().at(0).pointer, "/spacing");
+  }
+}
+
+TEST(KernelLevels, AreNamedAndOrdered) {
+  EXPECT_TRUE(machine_has(KernelLevel::kV2));
+  EXPECT_TRUE(machine_has(best_kernel_level()));
+  for (const KernelLevel l : {KernelLevel::kV2, KernelLevel::kV3, KernelLevel::kV4})
+    EXPECT_EQ(kernel_level_from_string(to_string(l)), l);
+  EXPECT_THROW((void)kernel_level_from_string("sse9"), InputError);
+}
+
+}  // namespace
+}  // namespace lather
