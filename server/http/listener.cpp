@@ -148,6 +148,8 @@ class Listener::Server final : public httplib::Server {
     if (bound < 0)
       throw std::runtime_error("cannot listen on " + host + " port " + std::to_string(port) +
                                ": it is taken, or no address of this machine (--port 0 takes a free one)");
+    ::listen(svr_sock_,
+             SOMAXCONN);  // the library's own backlog of 5 makes clients of a burst wait for seconds
     accepting_ = std::thread([this] { listen_after_bind(); });
     while (!is_running()) std::this_thread::yield();
     return bound;
