@@ -43,7 +43,7 @@ Scene box_scene(const SimpleShearRun& run, double increment) {
       const double y = side * layer * h;
       if (!walls.empty()) walls += ',';
       walls += R"({"name": "sheet )" + std::to_string(side * layer) +
-               R"(", "shape": {"type": "box", "size": [)" + number(100 * h) + "," + number(h) + "," +
+               R"(", "shape": {"type": "box", "size": [)" + number(100 * h) + "," + number(0.2 * h) + "," +
                number(100 * h) + R"(], "translate": [0,)" + number(y) +
                R"(, 0]}, "adhesive": true, "motion": {"type": "linear", "velocity": [)" +
                number(run.shear_rate * y) + ", 0, 0]}}";
