@@ -1,6 +1,5 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <charconv>
 #include <mutex>
 #include <stdexcept>
 
@@ -90,14 +89,6 @@ FrameRow read_frame(SQLite::Statement& row) {
   return frame;
 }
 
-std::int64_t parse_cursor(const std::string& cursor) {
-  std::int64_t sequence = 0;
-  const auto [end, error] = std::from_chars(cursor.data(), cursor.data() + cursor.size(), sequence);
-  if (error != std::errc{} || end != cursor.data() + cursor.size() || sequence <= 0)
-    throw std::invalid_argument("'" + cursor + "' is no cursor");
-  return sequence;
-}
-
 class SqliteStore final : public Store {
  public:
   explicit SqliteStore(const std::filesystem::path& file)
@@ -134,7 +125,7 @@ class SqliteStore final : public Store {
   std::optional<std::string> scene(const std::string& id) override { return document("scene", id); }
 
   JobPage list(const Listing& listing) override {
-    const std::int64_t before = listing.cursor.empty() ? INT64_MAX : parse_cursor(listing.cursor);
+    const std::int64_t before = listing.cursor.empty() ? INT64_MAX : sequence_of_cursor(listing.cursor);
     const std::string only = listing.state ? to_string(*listing.state) : "";
     const std::lock_guard lock(mutex_);
     SQLite::Statement query(database_, std::string("SELECT ") + kJobColumns +
@@ -180,19 +171,20 @@ class SqliteStore final : public Store {
     return job;
   }
 
+  std::optional<JobState> heartbeat(const std::string& id, int attempt) override {
+    const std::optional<Job> job = find(id);
+    if (!job || job->attempt != attempt) return std::nullopt;
+    const bool at_work = job->state == JobState::kRunning || job->state == JobState::kCancelling;
+    return at_work ? std::optional(job->state) : std::nullopt;
+  }
+
+  std::size_t reclaim() override { return 0; }
+
   bool move(const std::string& id, JobState to, const std::string& error) override {
-    const std::lock_guard lock(mutex_);
-    SQLite::Transaction transaction(database_);
-    const std::optional<Job> job = find_where("id = ?", id);
-    if (!job || !can_move(job->state, to)) return false;
-    SQLite::Statement update(database_, "UPDATE jobs SET state = ?, error = ?, ended = ? WHERE id = ?");
-    update.bind(1, to_string(to));
-    update.bind(2, to == JobState::kFailed ? error : job->error);
-    update.bind(3, has_ended(to) ? now_ms() : 0);
-    update.bind(4, id);
-    update.exec();
-    transaction.commit();
-    return true;
+    return move_if(id, std::nullopt, to, error);
+  }
+  bool settle(const std::string& id, int attempt, JobState to, const std::string& error) override {
+    return move_if(id, attempt, to, error);
   }
 
   bool set_progress(const std::string& id, int attempt, const JobProgress& progress) override {
@@ -286,6 +278,21 @@ class SqliteStore final : public Store {
     database_.exec(kSchema);
     database_.exec("INSERT INTO schema VALUES (" + std::to_string(kSchemaVersion) + ")");
     transaction.commit();
+  }
+
+  bool move_if(const std::string& id, std::optional<int> attempt, JobState to, const std::string& error) {
+    const std::lock_guard lock(mutex_);
+    SQLite::Transaction transaction(database_);
+    const std::optional<Job> job = find_where("id = ?", id);
+    if (!job || !can_move(job->state, to) || (attempt && job->attempt != *attempt)) return false;
+    SQLite::Statement update(database_, "UPDATE jobs SET state = ?, error = ?, ended = ? WHERE id = ?");
+    update.bind(1, to_string(to));
+    update.bind(2, to == JobState::kFailed ? error : job->error);
+    update.bind(3, has_ended(to) ? now_ms() : 0);
+    update.bind(4, id);
+    update.exec();
+    transaction.commit();
+    return true;
   }
 
   void insert(const Submission& submission) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +13,11 @@
 
 /// Jobs and frames, kept. All methods may be called from any thread; an answered write is on the disk.
 /// Throws std::runtime_error when the database fails.
+///
+/// A job that is worked on is leased: its attempt number is the fence, for a write that names an older one is
+/// refused. The PostgreSQL store serves agents on many machines, so a lease there runs out by the database's
+/// clock unless its agent renews it, and another agent takes the job as its next attempt. The SQLite store is
+/// opened by one process, which holds all leases for as long as it lives; they end with recover().
 namespace lather::server {
 
 struct Listing {
@@ -45,12 +52,22 @@ class Store {
   [[nodiscard]] virtual JobPage list(const Listing& listing) = 0;
   [[nodiscard]] virtual std::size_t count(JobState state) = 0;
 
-  /// Takes the first queued job (highest priority, then oldest) into its next attempt.
+  /// Takes the first queued job (highest priority, then oldest) into its next attempt. Calls reclaim() first.
   [[nodiscard]] virtual std::optional<Job> lease() = 0;
+
+  /// Renews the lease of an attempt and says where its job is: running or cancelling. None when the attempt
+  /// has lost the job; it must stop then, for nothing it writes is taken any longer.
+  [[nodiscard]] virtual std::optional<JobState> heartbeat(const std::string& id, int attempt) = 0;
+
+  /// Ends leases that have run out: running jobs are queued again, or failed at the third loss; cancelling
+  /// ones are cancelled. Says how many.
+  virtual std::size_t reclaim() = 0;
 
   /// Moves a job along can_move(); false, and nothing changes, when there is no such job or no such
   /// transition from where it is. Sets `ended` for the last states and `error` for failed.
   virtual bool move(const std::string& id, JobState to, const std::string& error = {}) = 0;
+  /// The same, only while `attempt` is the job's last one: for the agent that worked on it.
+  virtual bool settle(const std::string& id, int attempt, JobState to, const std::string& error = {}) = 0;
 
   /// Only while `attempt` stands; false otherwise.
   virtual bool set_progress(const std::string& id, int attempt, const JobProgress& progress) = 0;
@@ -64,12 +81,28 @@ class Store {
   /// Removes a job that has ended, with its frames' rows; false when there is none or it has not ended.
   virtual bool remove(const std::string& id) = 0;
 
-  /// After a crash: running jobs are queued again, cancelling ones are cancelled. Says how many.
+  /// Before the first agent of this store starts, after a crash: running jobs that nobody holds are queued
+  /// again, cancelling ones are cancelled. Says how many.
   virtual std::size_t recover() = 0;
 };
 
 /// Opens or creates the database. It must lie on a local disk and be opened by one process only: the server
 /// holds its single connection (SQLite 3.40 can lose data with more than one connection in WAL mode).
 [[nodiscard]] std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file);
+
+struct PostgresSettings {
+  std::chrono::milliseconds lease_term{15'000};  ///< from a heartbeat to the loss of the job
+  /// How long a call waits for a database that has gone away, before it throws.
+  std::chrono::milliseconds patience{3'000};
+};
+
+/// Opens the database at `uri` (postgresql://…; what it leaves out is taken from libpq's variables and
+/// password file) and creates the tables where there are none. Any number of processes may do so at once.
+/// Error messages do not repeat the URI, for it may hold a password.
+[[nodiscard]] std::unique_ptr<Store> open_postgres_store(const std::string& uri,
+                                                         const PostgresSettings& settings = {});
+
+/// A cursor as it is given out. Throws std::invalid_argument for a text that is none.
+[[nodiscard]] std::int64_t sequence_of_cursor(const std::string& cursor);
 
 }  // namespace lather::server

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/server/eventually.h"
 #include "tests/server/raw_http.h"
 #include "tests/server/server_process.h"
 #include "tests/server/temporary_directory.h"

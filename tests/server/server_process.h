@@ -2,9 +2,7 @@
 
 #include <sys/types.h>
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,9 +28,5 @@ class ServerProcess {
   pid_t pid_ = -1;
   int port_ = 0;
 };
-
-/// Asks again and again until it is so; false when it is not by then.
-[[nodiscard]] bool eventually(const std::function<bool()>& is_so,
-                              std::chrono::seconds patience = std::chrono::seconds(120));
 
 }  // namespace lather::server

@@ -1,6 +1,4 @@
-#include "server/store/store.h"
-
-#include <gtest/gtest.h>
+#include "tests/server/store_test.h"
 
 #include <memory>
 #include <optional>
@@ -10,41 +8,44 @@
 #include <thread>
 #include <vector>
 
-#include "tests/server/temporary_directory.h"
-
 namespace lather::server {
+
+Submission sample_submission(const std::string& name) {
+  Submission submission;
+  submission.job.id = new_job_id();
+  submission.job.name = name;
+  submission.job.created = now_ms();
+  submission.job.points = 1234;
+  submission.job.frame_rate = 23.976;
+  submission.job.progress.frames = 4;
+  submission.job.request_digest = "digest of " + name;
+  submission.scene = "{\"scene\":\"" + name + "\"}";
+  submission.plan = "{\"plan\":\"" + name + "\"}";
+  return submission;
+}
+
+std::string StoreTest::add(const std::string& name, int priority, const std::string& key) {
+  Submission submission = sample_submission(name);
+  submission.job.priority = priority;
+  submission.job.idempotency_key = key;
+  const std::optional<Job> earlier = store_->add(submission);
+  return earlier ? earlier->id : submission.job.id;
+}
+
 namespace {
 
-class StoreTest : public ::testing::Test {
- protected:
-  StoreTest() : store_(open_sqlite_store(directory_.path() / "lather.db")) {}
+class SqlitePlace final : public StorePlace {
+ public:
+  std::unique_ptr<Store> open() override { return open_sqlite_store(directory_.path() / "lather.db"); }
 
-  std::string add(const std::string& name, int priority = 0, const std::string& key = {}) {
-    Submission submission;
-    submission.job.id = new_job_id();
-    submission.job.name = name;
-    submission.job.priority = priority;
-    submission.job.created = now_ms();
-    submission.job.points = 1234;
-    submission.job.frame_rate = 24;
-    submission.job.progress.frames = 4;
-    submission.job.idempotency_key = key;
-    submission.job.request_digest = "digest of " + name;
-    submission.scene = "{\"scene\":\"" + name + "\"}";
-    submission.plan = "{\"plan\":\"" + name + "\"}";
-    const std::optional<Job> earlier = store_->add(submission);
-    return earlier ? earlier->id : submission.job.id;
-  }
-  void reopen() {
-    store_.reset();
-    store_ = open_sqlite_store(directory_.path() / "lather.db");
-  }
-
+ private:
   TemporaryDirectory directory_;
-  std::unique_ptr<Store> store_;
 };
 
-TEST_F(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
+INSTANTIATE_TEST_SUITE_P(Sqlite, StoreTest,
+                         ::testing::Values([] { return std::make_unique<SqlitePlace>(); }));
+
+TEST_P(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
   const std::string id = add("foam", 3);
   reopen();
   const std::optional<Job> job = store_->find(id);
@@ -53,14 +54,14 @@ TEST_F(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
   EXPECT_EQ(job->state, JobState::kQueued);
   EXPECT_EQ(job->priority, 3);
   EXPECT_EQ(job->points, 1234u);
-  EXPECT_EQ(job->frame_rate, 24);
+  EXPECT_EQ(job->frame_rate, 23.976);
   EXPECT_EQ(job->progress.frames, 4);
   EXPECT_EQ(store_->plan(id), "{\"plan\":\"foam\"}");
   EXPECT_EQ(store_->scene(id), "{\"scene\":\"foam\"}");
   EXPECT_FALSE(store_->find(new_job_id()));
 }
 
-TEST_F(StoreTest, LeasesByPriorityThenAgeAndEachJobOnce) {
+TEST_P(StoreTest, LeasesByPriorityThenAgeAndEachJobOnce) {
   const std::string first = add("first");
   const std::string second = add("second");
   const std::string urgent = add("urgent", 1);
@@ -73,7 +74,7 @@ TEST_F(StoreTest, LeasesByPriorityThenAgeAndEachJobOnce) {
   EXPECT_FALSE(store_->lease());
 }
 
-TEST_F(StoreTest, RefusesTransitionsThatDoNotExist) {
+TEST_P(StoreTest, RefusesTransitionsThatDoNotExist) {
   const std::string id = add("foam");
   EXPECT_FALSE(store_->move(id, JobState::kSucceeded));
   EXPECT_FALSE(store_->move(id, JobState::kCancelling));
@@ -86,7 +87,7 @@ TEST_F(StoreTest, RefusesTransitionsThatDoNotExist) {
   EXPECT_FALSE(store_->move(new_job_id(), JobState::kCancelled));
 }
 
-TEST_F(StoreTest, PublishesFramesOnlyWhileTheAttemptStands) {
+TEST_P(StoreTest, PublishesFramesOnlyWhileTheAttemptStands) {
   const std::string id = add("foam");
   EXPECT_FALSE(store_->publish(id, 1, {0, "sha", 10, 1}));
   ASSERT_TRUE(store_->lease());
@@ -98,18 +99,39 @@ TEST_F(StoreTest, PublishesFramesOnlyWhileTheAttemptStands) {
   EXPECT_EQ(store_->count_frames(id), 1u);
 }
 
-TEST_F(StoreTest, KeepsOldFramesUntilANewAttemptReplacesThem) {
+TEST_P(StoreTest, KeepsProgressToTheLastBit) {
+  const std::string id = add("foam \u00fc\u4e16 'quoted'; --");
+  ASSERT_TRUE(store_->lease());
+  JobProgress progress;
+  progress.frame = 3;
+  progress.frames = 4;
+  progress.time = 0.1 + 0.2;
+  progress.fraction = 1.0 / 3;
+  progress.step = 1234567890123;
+  progress.seconds_per_frame = 1e-7;
+  progress.eta_seconds = 1e9 + 0.1;
+  ASSERT_TRUE(store_->set_progress(id, 1, progress));
+  reopen();
+  const std::optional<Job> job = store_->find(id);
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->name, "foam \u00fc\u4e16 'quoted'; --");
+  EXPECT_EQ(job->progress.time, progress.time);
+  EXPECT_EQ(job->progress.fraction, progress.fraction);
+  EXPECT_EQ(job->progress.step, progress.step);
+  EXPECT_EQ(job->progress.seconds_per_frame, progress.seconds_per_frame);
+  EXPECT_EQ(job->progress.eta_seconds, progress.eta_seconds);
+}
+
+TEST_P(StoreTest, KeepsOldFramesUntilANewAttemptReplacesThem) {
   const std::string id = add("foam");
   ASSERT_TRUE(store_->lease());
   ASSERT_TRUE(store_->publish(id, 1, {0, "old", 10, 1}));
   ASSERT_TRUE(store_->publish(id, 1, {1, "old", 10, 1}));
-  reopen();
-  EXPECT_EQ(store_->recover(), 1u);
+  ASSERT_TRUE(store_->settle(id, 1, JobState::kQueued));
   const std::optional<Job> again = store_->lease();
   ASSERT_TRUE(again);
   EXPECT_EQ(again->attempt, 2);
   ASSERT_TRUE(store_->publish(id, 2, {0, "new", 11, 2}));
-  EXPECT_FALSE(store_->publish(id, 1, {1, "late", 12, 1}));
   const std::vector<FrameRow> frames = store_->frames(id);
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[0].sha256, "new");
@@ -118,20 +140,56 @@ TEST_F(StoreTest, KeepsOldFramesUntilANewAttemptReplacesThem) {
   EXPECT_EQ(frames[1].attempt, 1);
 }
 
-TEST_F(StoreTest, RecoveryQueuesRunningJobsAndCancelsCancellingOnes) {
+TEST_P(StoreTest, RefusesEveryWriteOfAnOlderAttempt) {
+  const std::string id = add("foam");
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->settle(id, 1, JobState::kQueued));
+  EXPECT_FALSE(store_->heartbeat(id, 1)) << "a queued job has no attempt that stands";
+  ASSERT_TRUE(store_->lease());
+  EXPECT_FALSE(store_->heartbeat(id, 1));
+  EXPECT_FALSE(store_->publish(id, 1, {1, "late", 12, 1}));
+  EXPECT_FALSE(store_->set_progress(id, 1, JobProgress{}));
+  EXPECT_FALSE(store_->settle(id, 1, JobState::kFailed, "late"));
+  EXPECT_FALSE(store_->settle(id, 1, JobState::kQueued));
+  EXPECT_EQ(store_->find(id)->state, JobState::kRunning);
+  EXPECT_EQ(store_->find(id)->error, "");
+  EXPECT_EQ(store_->count_frames(id), 0u);
+}
+
+TEST_P(StoreTest, AHeartbeatSaysWhetherToGoOnOrToCancel) {
+  const std::string id = add("foam");
+  ASSERT_TRUE(store_->lease());
+  EXPECT_EQ(store_->heartbeat(id, 1), JobState::kRunning);
+  ASSERT_TRUE(store_->move(id, JobState::kCancelling));
+  EXPECT_EQ(store_->heartbeat(id, 1), JobState::kCancelling);
+  ASSERT_TRUE(store_->settle(id, 1, JobState::kCancelled));
+  EXPECT_FALSE(store_->heartbeat(id, 1));
+}
+
+TEST(SqliteStore, RecoveryQueuesRunningJobsAndCancelsCancellingOnes) {
+  SqlitePlace place;
+  std::unique_ptr<Store> store = place.open();
+  const auto add = [&](const char* name) {
+    const Submission submission = sample_submission(name);
+    store->add(submission);
+    return submission.job.id;
+  };
   const std::string running = add("running");
   const std::string cancelling = add("cancelling");
   const std::string queued = add("queued");
-  ASSERT_TRUE(store_->lease());
-  ASSERT_TRUE(store_->lease());
-  ASSERT_TRUE(store_->move(cancelling, JobState::kCancelling));
-  EXPECT_EQ(store_->recover(), 2u);
-  EXPECT_EQ(store_->find(running)->state, JobState::kQueued);
-  EXPECT_EQ(store_->find(cancelling)->state, JobState::kCancelled);
-  EXPECT_EQ(store_->find(queued)->state, JobState::kQueued);
+  ASSERT_TRUE(store->lease());
+  ASSERT_TRUE(store->lease());
+  ASSERT_TRUE(store->move(cancelling, JobState::kCancelling));
+  EXPECT_EQ(store->reclaim(), 0u) << "leases last as long as their process";
+  store.reset();
+  store = place.open();
+  EXPECT_EQ(store->recover(), 2u);
+  EXPECT_EQ(store->find(running)->state, JobState::kQueued);
+  EXPECT_EQ(store->find(cancelling)->state, JobState::kCancelled);
+  EXPECT_EQ(store->find(queued)->state, JobState::kQueued);
 }
 
-TEST_F(StoreTest, PagesThroughAllJobsNewestFirstWhileNewOnesArrive) {
+TEST_P(StoreTest, PagesThroughAllJobsNewestFirstWhileNewOnesArrive) {
   std::vector<std::string> added;
   for (int i = 0; i < 7; ++i) added.push_back(add("job " + std::to_string(i)));
   Listing listing;
@@ -146,7 +204,7 @@ TEST_F(StoreTest, PagesThroughAllJobsNewestFirstWhileNewOnesArrive) {
   EXPECT_EQ(seen, std::vector<std::string>(added.rbegin(), added.rend()));
 }
 
-TEST_F(StoreTest, ListsByStateAndRefusesForgedCursors) {
+TEST_P(StoreTest, ListsByStateAndRefusesForgedCursors) {
   add("a");
   add("b");
   ASSERT_TRUE(store_->lease());
@@ -159,7 +217,7 @@ TEST_F(StoreTest, ListsByStateAndRefusesForgedCursors) {
   }
 }
 
-TEST_F(StoreTest, TheSameIdempotencyKeyMakesOneJob) {
+TEST_P(StoreTest, TheSameIdempotencyKeyMakesOneJob) {
   const std::string first = add("foam", 0, "key-1");
   EXPECT_EQ(add("foam", 0, "key-1"), first);
   EXPECT_NE(add("foam", 0, "key-2"), first);
@@ -167,7 +225,7 @@ TEST_F(StoreTest, TheSameIdempotencyKeyMakesOneJob) {
   EXPECT_EQ(store_->count(JobState::kQueued), 4u);
 }
 
-TEST_F(StoreTest, RemovesOnlyEndedJobsAndTheirFrames) {
+TEST_P(StoreTest, RemovesOnlyEndedJobsAndTheirFrames) {
   const std::string id = add("foam");
   EXPECT_FALSE(store_->remove(id));
   ASSERT_TRUE(store_->lease());
@@ -179,7 +237,7 @@ TEST_F(StoreTest, RemovesOnlyEndedJobsAndTheirFrames) {
   EXPECT_TRUE(store_->frames(id).empty());
 }
 
-TEST_F(StoreTest, GivesEachJobToOneOfManyThreads) {
+TEST_P(StoreTest, GivesEachJobToOneOfManyThreads) {
   constexpr int kJobs = 24;
   for (int i = 0; i < kJobs; ++i) add("job");
   std::vector<std::vector<std::string>> leased(4);

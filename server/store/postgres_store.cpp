@@ -1,0 +1,402 @@
+#include <chrono>
+#include <mutex>
+#include <pqxx/pqxx>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "server/store/store.h"
+
+namespace lather::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSchemaVersion = 1;
+constexpr auto kReconnectPause = std::chrono::milliseconds(100);
+
+/// Any number that other programs in the same database are unlikely to lock: "lather" in ASCII.
+constexpr const char* kLockSchema = "SELECT pg_advisory_xact_lock(118992968054130)";
+
+constexpr const char* kSchema = R"sql(
+CREATE TABLE lather_schema (version integer NOT NULL);
+CREATE TABLE lather_jobs (
+  sequence bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  id text NOT NULL UNIQUE,
+  name text NOT NULL,
+  state text NOT NULL,
+  priority integer NOT NULL,
+  created bigint NOT NULL,
+  started bigint NOT NULL DEFAULT 0,
+  ended bigint NOT NULL DEFAULT 0,
+  attempt integer NOT NULL DEFAULT 0,
+  error text NOT NULL DEFAULT '',
+  points bigint NOT NULL,
+  frame_rate double precision NOT NULL,
+  frame integer NOT NULL DEFAULT 0,
+  frames integer NOT NULL,
+  time double precision NOT NULL DEFAULT 0,
+  fraction double precision NOT NULL DEFAULT 0,
+  step bigint NOT NULL DEFAULT 0,
+  seconds_per_frame double precision NOT NULL DEFAULT 0,
+  eta_seconds double precision NOT NULL DEFAULT -1,
+  idempotency_key text UNIQUE,
+  request_digest text NOT NULL,
+  lease_until timestamptz,
+  losses integer NOT NULL DEFAULT 0,
+  scene text NOT NULL,
+  plan text NOT NULL);
+CREATE INDEX lather_jobs_by_state ON lather_jobs (state, priority DESC, sequence);
+CREATE TABLE lather_frames (
+  job text NOT NULL REFERENCES lather_jobs (id) ON DELETE CASCADE,
+  number integer NOT NULL,
+  sha256 text NOT NULL,
+  size bigint NOT NULL,
+  attempt integer NOT NULL,
+  PRIMARY KEY (job, number));
+)sql";
+
+// The database's clock, in ms since 1970 (the store's form) and as the end of a lease of $1 ms.
+#define LATHER_NOW_MS "floor(extract(epoch FROM clock_timestamp()) * 1000)::bigint"
+#define LATHER_LEASE_END "clock_timestamp() + $1::bigint * interval '1 millisecond'"
+/// The order in which read_job() takes them.
+#define LATHER_JOB_COLUMNS                                                                                  \
+  "id, name, state, priority, created, started, ended, attempt, error, points, frame_rate, frame, frames, " \
+  "time, fraction, step, seconds_per_frame, eta_seconds, coalesce(idempotency_key, ''), request_digest, "   \
+  "sequence"
+
+constexpr int kSequenceColumn = 20;
+
+constexpr const char* kInsert =
+    "INSERT INTO lather_jobs (id, name, state, priority, created, points, frame_rate, frames,"
+    " idempotency_key, request_digest, scene, plan)"
+    " VALUES ($1, $2, 'queued', $3, $4, $5, $6, $7, nullif($8, ''), $9, $10, $11)"
+    " ON CONFLICT (idempotency_key) DO NOTHING RETURNING id";
+
+constexpr const char* kList = "SELECT " LATHER_JOB_COLUMNS
+                              " FROM lather_jobs WHERE sequence < $1 AND ($2 = '' OR state = $2)"
+                              " ORDER BY sequence DESC LIMIT $3";
+
+// Rows that another agent is just taking are skipped, not waited for; materialized, so that the choice is
+// made once.
+constexpr const char* kLease =
+    "WITH first AS MATERIALIZED (SELECT id AS chosen FROM lather_jobs WHERE state = 'queued'"
+    "  ORDER BY priority DESC, sequence LIMIT 1 FOR UPDATE SKIP LOCKED)"
+    " UPDATE lather_jobs SET state = 'running', attempt = attempt + 1, ended = 0,"
+    "  started = " LATHER_NOW_MS ", lease_until = " LATHER_LEASE_END
+    ","
+    "  frame = 0, time = 0, fraction = 0, step = 0, eta_seconds = -1"
+    " FROM first WHERE id = chosen RETURNING " LATHER_JOB_COLUMNS;
+
+constexpr const char* kHeartbeat =
+    "UPDATE lather_jobs SET lease_until = " LATHER_LEASE_END
+    " WHERE id = $2 AND attempt = $3 AND state IN ('running', 'cancelling') RETURNING state";
+
+constexpr const char* kReclaim =
+    "UPDATE lather_jobs SET losses = losses + 1, lease_until = NULL,"
+    "  state = CASE WHEN state = 'cancelling' THEN 'cancelled' WHEN losses >= 2 THEN 'failed'"
+    "   ELSE 'queued' END,"
+    "  ended = CASE WHEN state = 'cancelling' OR losses >= 2 THEN " LATHER_NOW_MS
+    " ELSE 0 END,"
+    "  error = CASE WHEN state = 'running' AND losses >= 2 THEN $1 ELSE error END"
+    " WHERE id IN (SELECT id FROM lather_jobs WHERE state IN ('running', 'cancelling')"
+    "  AND lease_until < clock_timestamp() FOR UPDATE SKIP LOCKED)";
+
+constexpr const char* kLostTooOften =
+    "three agents that worked on this job were lost one after the other (their machine, their program or "
+    "their "
+    "way to the database). A job that needs more memory than its machine has does that: choose a larger "
+    "spacing";
+
+constexpr const char* kProgress =
+    "UPDATE lather_jobs SET frame = $1, frames = $2, time = $3, fraction = $4, step = $5,"
+    " seconds_per_frame = $6, eta_seconds = $7 WHERE id = $8 AND attempt = $9 AND state = 'running'";
+
+constexpr const char* kPublish =
+    "INSERT INTO lather_frames (job, number, sha256, size, attempt) VALUES ($1, $2, $3, $4, $5)"
+    " ON CONFLICT (job, number) DO UPDATE SET sha256 = excluded.sha256, size = excluded.size,"
+    " attempt = excluded.attempt";
+
+Job read_job(const pqxx::row& row) {
+  Job job;
+  int i = 0;
+  const auto next = [&](auto& field) { row[i++].to(field); };
+  std::string state;
+  std::int64_t points = 0;
+  std::int64_t step = 0;
+  next(job.id);
+  next(job.name);
+  next(state);
+  next(job.priority);
+  next(job.created);
+  next(job.started);
+  next(job.ended);
+  next(job.attempt);
+  next(job.error);
+  next(points);
+  next(job.frame_rate);
+  next(job.progress.frame);
+  next(job.progress.frames);
+  next(job.progress.time);
+  next(job.progress.fraction);
+  next(step);
+  next(job.progress.seconds_per_frame);
+  next(job.progress.eta_seconds);
+  next(job.idempotency_key);
+  next(job.request_digest);
+  job.state = job_state_from_string(state);
+  job.points = static_cast<std::uint64_t>(points);
+  job.progress.step = static_cast<std::uint64_t>(step);
+  return job;
+}
+
+std::optional<Job> job_of(const pqxx::result& rows) {
+  if (rows.empty()) return std::nullopt;
+  return read_job(rows[0]);
+}
+
+FrameRow read_frame(const pqxx::row& row) {
+  return {row[0].as<int>(), row[1].as<std::string>(), static_cast<std::uint64_t>(row[2].as<std::int64_t>()),
+          row[3].as<int>()};
+}
+
+/// A server that is gone without a word is noticed in seconds, not after TCP's quarter of an hour. What the
+/// user wrote comes first.
+std::string with_timeouts(std::string uri) {
+  const std::pair<const char*, const char*> defaults[] = {
+      {"connect_timeout", "5"}, {"tcp_user_timeout", "10000"}, {"fallback_application_name", "lather"}};
+  for (const auto& [name, value] : defaults) {
+    if (uri.find(std::string(name) + '=') != std::string::npos) continue;
+    uri += uri.find('?') == std::string::npos ? '?' : '&';
+    uri += std::string(name) + '=' + value;
+  }
+  return uri;
+}
+
+class PostgresStore final : public Store {
+ public:
+  PostgresStore(const std::string& uri, const PostgresSettings& settings)
+      : uri_(with_timeouts(uri)), settings_(settings) {
+    transact([](pqxx::work& t) {
+      t.exec(kLockSchema);
+      if (t.exec1("SELECT to_regclass('lather_schema') IS NULL")[0].as<bool>()) {
+        t.exec(kSchema);
+        t.exec_params("INSERT INTO lather_schema VALUES ($1)", kSchemaVersion);
+      }
+      const int version = t.exec1("SELECT version FROM lather_schema")[0].as<int>();
+      if (version != kSchemaVersion)
+        throw std::runtime_error("the database has schema version " + std::to_string(version) +
+                                 ", this build reads version " + std::to_string(kSchemaVersion));
+      return true;
+    });
+  }
+
+  std::optional<Job> add(const Submission& submission) override {
+    return transact([&](pqxx::work& t) -> std::optional<Job> {
+      const Job& job = submission.job;
+      const pqxx::result added =
+          t.exec_params(kInsert, job.id, job.name, job.priority, job.created,
+                        static_cast<std::int64_t>(job.points), job.frame_rate, job.progress.frames,
+                        job.idempotency_key, job.request_digest, submission.scene, submission.plan);
+      if (!added.empty()) return std::nullopt;
+      return job_of(t.exec_params("SELECT " LATHER_JOB_COLUMNS " FROM lather_jobs WHERE idempotency_key = $1",
+                                  job.idempotency_key));
+    });
+  }
+
+  std::optional<Job> find(const std::string& id) override {
+    return transact([&](pqxx::work& t) {
+      return job_of(t.exec_params("SELECT " LATHER_JOB_COLUMNS " FROM lather_jobs WHERE id = $1", id));
+    });
+  }
+
+  std::optional<std::string> plan(const std::string& id) override {
+    return document("SELECT plan FROM lather_jobs WHERE id = $1", id);
+  }
+  std::optional<std::string> scene(const std::string& id) override {
+    return document("SELECT scene FROM lather_jobs WHERE id = $1", id);
+  }
+
+  JobPage list(const Listing& listing) override {
+    const std::int64_t before = listing.cursor.empty() ? INT64_MAX : sequence_of_cursor(listing.cursor);
+    const std::string only = listing.state ? to_string(*listing.state) : "";
+    return transact([&](pqxx::work& t) {
+      const pqxx::result rows =
+          t.exec_params(kList, before, only, static_cast<std::int64_t>(listing.limit) + 1);
+      JobPage page;
+      for (const pqxx::row& row : rows) {
+        if (page.jobs.size() == listing.limit) break;
+        page.jobs.push_back(read_job(row));
+        if (page.jobs.size() == listing.limit && rows.size() > listing.limit)
+          page.next_cursor = row[kSequenceColumn].as<std::string>();
+      }
+      return page;
+    });
+  }
+
+  std::size_t count(JobState state) override {
+    return count_where("SELECT count(*) FROM lather_jobs WHERE state = $1", to_string(state));
+  }
+
+  std::optional<Job> lease() override {
+    return transact([&](pqxx::work& t) {
+      reclaim_in(t);
+      return job_of(t.exec_params(kLease, term()));
+    });
+  }
+
+  std::optional<JobState> heartbeat(const std::string& id, int attempt) override {
+    return transact([&](pqxx::work& t) -> std::optional<JobState> {
+      const pqxx::result rows = t.exec_params(kHeartbeat, term(), id, attempt);
+      if (rows.empty()) return std::nullopt;
+      return job_state_from_string(rows[0][0].as<std::string>());
+    });
+  }
+
+  std::size_t reclaim() override {
+    return transact([](pqxx::work& t) { return reclaim_in(t); });
+  }
+
+  bool move(const std::string& id, JobState to, const std::string& error) override {
+    return move_if(id, std::nullopt, to, error);
+  }
+  bool settle(const std::string& id, int attempt, JobState to, const std::string& error) override {
+    return move_if(id, attempt, to, error);
+  }
+
+  bool set_progress(const std::string& id, int attempt, const JobProgress& p) override {
+    return transact([&](pqxx::work& t) {
+      return t.exec_params(kProgress, p.frame, p.frames, p.time, p.fraction,
+                           static_cast<std::int64_t>(p.step), p.seconds_per_frame, p.eta_seconds, id, attempt)
+                 .affected_rows() == 1;
+    });
+  }
+
+  bool publish(const std::string& id, int attempt, const FrameRow& frame) override {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || job->attempt != attempt || !attempt_stands(job->state)) return false;
+      t.exec_params(kPublish, id, frame.index, frame.sha256, static_cast<std::int64_t>(frame.size), attempt);
+      return true;
+    });
+  }
+
+  std::vector<FrameRow> frames(const std::string& id) override {
+    return transact([&](pqxx::work& t) {
+      std::vector<FrameRow> found;
+      for (const pqxx::row& row : t.exec_params(
+               "SELECT number, sha256, size, attempt FROM lather_frames WHERE job = $1 ORDER BY number", id))
+        found.push_back(read_frame(row));
+      return found;
+    });
+  }
+
+  std::optional<FrameRow> frame(const std::string& id, int index) override {
+    return transact([&](pqxx::work& t) -> std::optional<FrameRow> {
+      const pqxx::result rows = t.exec_params(
+          "SELECT number, sha256, size, attempt FROM lather_frames WHERE job = $1 AND number = $2", id,
+          index);
+      if (rows.empty()) return std::nullopt;
+      return read_frame(rows[0]);
+    });
+  }
+
+  std::size_t count_frames(const std::string& id) override {
+    return count_where("SELECT count(*) FROM lather_frames WHERE job = $1", id);
+  }
+
+  bool remove(const std::string& id) override {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || !has_ended(job->state)) return false;
+      t.exec_params("DELETE FROM lather_jobs WHERE id = $1", id);
+      return true;
+    });
+  }
+
+  std::size_t recover() override { return reclaim(); }
+
+ private:
+  /// Runs `call` in a transaction, again on a new connection when the old one broke before the commit; what
+  /// broke during the commit may have been kept and is not repeated.
+  template <typename Call>
+  auto transact(const Call& call) -> decltype(call(std::declval<pqxx::work&>())) {
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point give_up = Clock::now() + settings_.patience;
+    while (true) {
+      try {
+        if (!connection_) connect();
+        pqxx::work transaction(*connection_);
+        auto result = call(transaction);
+        transaction.commit();
+        return result;
+      } catch (const pqxx::in_doubt_error&) {
+        connection_.reset();
+        throw;
+      } catch (const pqxx::failure&) {
+        if (connection_ && connection_->is_open()) throw;
+        connection_.reset();
+        if (Clock::now() >= give_up) throw;
+      }
+      std::this_thread::sleep_for(kReconnectPause);
+    }
+  }
+
+  void connect() {
+    try {
+      connection_ = std::make_unique<pqxx::connection>(uri_);
+    } catch (const pqxx::failure& failure) {
+      std::string why = failure.what();
+      for (std::size_t at = why.find(uri_); at != std::string::npos; at = why.find(uri_))
+        why.replace(at, uri_.size(), "postgresql://…");
+      throw pqxx::broken_connection("cannot reach the database: " + why);
+    }
+  }
+
+  [[nodiscard]] std::int64_t term() const { return settings_.lease_term.count(); }
+
+  static std::size_t reclaim_in(pqxx::work& t) {
+    return t.exec_params(kReclaim, kLostTooOften).affected_rows();
+  }
+
+  static std::optional<Job> lock_job(pqxx::work& t, const std::string& id) {
+    return job_of(
+        t.exec_params("SELECT " LATHER_JOB_COLUMNS " FROM lather_jobs WHERE id = $1 FOR UPDATE", id));
+  }
+
+  bool move_if(const std::string& id, std::optional<int> attempt, JobState to, const std::string& error) {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || !can_move(job->state, to) || (attempt && job->attempt != *attempt)) return false;
+      t.exec_params("UPDATE lather_jobs SET state = $1, error = $2, ended = CASE WHEN $3 THEN " LATHER_NOW_MS
+                    " ELSE 0 END WHERE id = $4",
+                    to_string(to), to == JobState::kFailed ? error : job->error, has_ended(to), id);
+      return true;
+    });
+  }
+
+  std::optional<std::string> document(const char* sql, const std::string& id) {
+    return transact([&](pqxx::work& t) -> std::optional<std::string> {
+      const pqxx::result rows = t.exec_params(sql, id);
+      if (rows.empty()) return std::nullopt;
+      return rows[0][0].as<std::string>();
+    });
+  }
+
+  std::size_t count_where(const char* sql, const std::string& value) {
+    return transact([&](pqxx::work& t) { return t.exec_params1(sql, value)[0].as<std::size_t>(); });
+  }
+
+  const std::string uri_;
+  const PostgresSettings settings_;
+  std::mutex mutex_;
+  std::unique_ptr<pqxx::connection> connection_;
+};
+
+}  // namespace
+
+std::unique_ptr<Store> open_postgres_store(const std::string& uri, const PostgresSettings& settings) {
+  return std::make_unique<PostgresStore>(uri, settings);
+}
+
+}  // namespace lather::server
