@@ -2,13 +2,21 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace lather::server {
+namespace {
+
+constexpr auto kPollInterval = std::chrono::milliseconds(500);
+
+}  // namespace
 
 Agent::Agent(Store& store, AgentSettings settings) : store_(store), settings_(std::move(settings)) {
   for (int i = 0; i < settings_.workers; ++i) workers_.emplace_back([this] { work(); });
+  if (workers_.empty()) workers_.emplace_back([this] { reclaim(); });
 }
 
 Agent::~Agent() {
@@ -17,18 +25,22 @@ Agent::~Agent() {
 
 void Agent::wake() {
   const std::lock_guard lock(mutex_);
-  changed_.notify_one();
+  ++news_;
+  changed_.notify_all();
 }
 
 bool Agent::cancel(const std::string& id) {
-  // A lease and its place in running_ change together under the lock, so a running job is always found there.
+  // A move is refused when the job has gone on since it was looked at: then it is looked at again.
+  while (true) {
+    const std::optional<Job> job = store_.find(id);
+    if (!job || has_ended(job->state)) return false;
+    if (job->state == JobState::kCancelling) return true;
+    const bool queued = job->state == JobState::kQueued;
+    if (store_.move(id, queued ? JobState::kCancelled : JobState::kCancelling)) break;
+  }
   const std::lock_guard lock(mutex_);
-  const std::optional<Job> job = store_.find(id);
-  if (!job || has_ended(job->state)) return false;
-  if (job->state == JobState::kQueued) return store_.move(id, JobState::kCancelled);
-  if (job->state == JobState::kRunning && !store_.move(id, JobState::kCancelling)) return false;
-  const auto attempt = running_.find(id);
-  if (attempt != running_.end()) attempt->second->cancel();
+  for (const std::shared_ptr<Attempt>& attempt : running_)
+    if (attempt->id() == id) attempt->cancel();
   return true;
 }
 
@@ -36,7 +48,7 @@ void Agent::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    for (const auto& [id, attempt] : running_) attempt->abandon();
+    for (const std::shared_ptr<Attempt>& attempt : running_) attempt->abandon();
     changed_.notify_all();
   }
   for (std::thread& worker : workers_)
@@ -48,30 +60,54 @@ void Agent::work() {
     try {
       attempt->run();
     } catch (const std::exception& failure) {
-      // The store cannot be written: the job stays `running` there and is queued again at the next start.
+      // The store cannot be written: the job stays `running` there until its lease ends.
       spdlog::error("job {}: {}", attempt->id(), failure.what());
     }
     drop(attempt);
   }
 }
 
+void Agent::reclaim() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    lock.unlock();
+    try {
+      store_.reclaim();
+    } catch (const std::exception& failure) {
+      spdlog::error("cannot look for lost jobs: {}", failure.what());
+    }
+    lock.lock();
+    changed_.wait_for(lock, kPollInterval, [this] { return stopping_; });
+  }
+}
+
 std::shared_ptr<Attempt> Agent::take() {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
+    const unsigned seen = news_;
+    lock.unlock();  // the store may take its time
     try {
-      if (const std::optional<Job> job = store_.lease())
-        return running_.emplace(job->id, std::make_shared<Attempt>(store_, *job, settings_)).first->second;
+      if (const std::optional<Job> job = store_.lease()) return start(*job);
     } catch (const std::exception& failure) {
       spdlog::error("cannot lease a job: {}", failure.what());
     }
-    changed_.wait(lock);
+    lock.lock();
+    changed_.wait_for(lock, kPollInterval, [&] { return stopping_ || news_ != seen; });
   }
   return nullptr;
 }
 
+std::shared_ptr<Attempt> Agent::start(const Job& job) {
+  const auto attempt = std::make_shared<Attempt>(store_, job, settings_);
+  const std::lock_guard lock(mutex_);
+  running_.push_back(attempt);
+  if (stopping_) attempt->abandon();
+  return attempt;
+}
+
 void Agent::drop(const std::shared_ptr<Attempt>& attempt) {
   const std::lock_guard lock(mutex_);
-  running_.erase(attempt->id());
+  running_.erase(std::remove(running_.begin(), running_.end(), attempt), running_.end());
 }
 
 }  // namespace lather::server

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,7 +12,9 @@
 
 namespace lather::server {
 
-/// Leases queued jobs and works on them, `workers` at a time, until stopped.
+/// Leases queued jobs and works on them, `workers` at a time, until stopped. Asks the store every half
+/// second, for other processes may have added or cancelled jobs; wake() and cancel() only save that wait.
+/// Without workers it still sees to it that the jobs of lost agents are queued again.
 class Agent {
  public:
   Agent(Store& store, AgentSettings settings);
@@ -31,15 +32,18 @@ class Agent {
 
  private:
   void work();
+  void reclaim();
   [[nodiscard]] std::shared_ptr<Attempt> take();  // waits for a job; null once stopping
+  [[nodiscard]] std::shared_ptr<Attempt> start(const Job& job);
   void drop(const std::shared_ptr<Attempt>& attempt);
 
   Store& store_;
   const AgentSettings settings_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool stopping_ = false;  // guarded by mutex_, as is the next
-  std::map<std::string, std::shared_ptr<Attempt>> running_;
+  bool stopping_ = false;  // guarded by mutex_, as are the next two
+  unsigned news_ = 0;      // counts wake()
+  std::vector<std::shared_ptr<Attempt>> running_;
   std::vector<std::thread> workers_;
 };
 

@@ -94,6 +94,7 @@ RunnerOrder Attempt::make_order() const {
 }
 
 void Attempt::settle(const RunnerOutcome& outcome) {
+  if (outcome.lost) return say_lost();
   // A cancel that came in between has moved the job to `cancelling`, from where it can only be cancelled; so
   // each line below tries its own way, and the store refuses the ones that do not start where the job is.
   const bool succeeded = outcome.result && outcome.result->state == "succeeded";
@@ -104,13 +105,18 @@ void Attempt::settle(const RunnerOutcome& outcome) {
   if (failed) error = outcome.result->error;
   if (!outcome.result) error = describe_crash(outcome);
   if (abandoned_.load() && !succeeded && !failed) next = JobState::kQueued;
-  if (!store_.move(job_.id, next, error)) {
+  if (!store_.settle(job_.id, job_.attempt, next, error)) {
     next = JobState::kCancelled;
-    store_.move(job_.id, next);
+    error.clear();
+    if (!store_.settle(job_.id, job_.attempt, next)) return say_lost();
   }
   spdlog::info("job {} attempt {} {}{}{}", job_.id, job_.attempt, to_string(next), error.empty() ? "" : ": ",
                error);
   if (next == JobState::kSucceeded) remove_older_attempts();
+}
+
+void Attempt::say_lost() const {
+  spdlog::warn("job {} attempt {} has lost its lease: what it made is not taken", job_.id, job_.attempt);
 }
 
 void Attempt::remove_older_attempts() const {

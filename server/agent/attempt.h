@@ -31,11 +31,13 @@ class Attempt {
  public:
   Attempt(Store& store, const Job& job, const AgentSettings& settings);
 
-  /// Works on it until it has ended. Never throws for what a runner does; throws when the store fails.
+  /// Works on it until it has ended, or the lease is lost. Never throws for what a runner does; throws when
+  /// the store fails.
   void run();
 
   // From any thread:
-  void cancel();   ///< the user wants no more; the job is `cancelling` in the store
+  void
+  cancel();  ///< the user wants no more; the job is `cancelling` in the store (read there anyway, but later)
   void abandon();  ///< the server stops; the job is queued again
 
   [[nodiscard]] const std::string& id() const { return job_.id; }
@@ -44,6 +46,7 @@ class Attempt {
   void wake() const;
   [[nodiscard]] RunnerOrder make_order() const;
   void settle(const RunnerOutcome& outcome);
+  void say_lost() const;
   void remove_older_attempts() const;
 
   Store& store_;

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace lather::server {
 namespace {
@@ -59,6 +61,18 @@ void wire_files(posix_spawn_file_actions_t& files, int log, int socket) {
   ::posix_spawn_file_actions_addclosefrom_np(&files, kRunnerFd + 1);
 }
 
+/// A runner knows no store, so it is not told how to reach one: neither our variable nor those of libpq,
+/// which may hold a password.
+std::vector<char*> environment_of_runner() {
+  std::vector<char*> kept;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    if (text.substr(0, 2) != "PG" && text.substr(0, 13) != "LATHER_STORE=") kept.push_back(*entry);
+  }
+  kept.push_back(nullptr);
+  return kept;
+}
+
 }  // namespace
 
 RunnerProcess::RunnerProcess() {
@@ -79,8 +93,9 @@ RunnerProcess::RunnerProcess() {
   char program[] = "lather";
   char command[] = "runner";
   char* arguments[] = {program, command, nullptr};
-  const int error =
-      ::posix_spawn(&pid_, "/proc/self/exe", &settings.files, &settings.attributes, arguments, environ);
+  std::vector<char*> environment = environment_of_runner();
+  const int error = ::posix_spawn(&pid_, "/proc/self/exe", &settings.files, &settings.attributes, arguments,
+                                  environment.data());
   if (error != 0) {
     pid_ = -1;
     fail(error, "cannot start a runner");

@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kLongestEvent = std::size_t{1} << 20;
 // Each write to the store is a sync of the disk: progress is stored at this pace only, frames at once.
 constexpr auto kStoreInterval = std::chrono::milliseconds(400);
+// Also the longest time until a cancel that another process has written is seen.
+constexpr auto kHeartbeatInterval = std::chrono::milliseconds(500);
 
 }  // namespace
 
@@ -24,6 +26,7 @@ RunnerWatch::RunnerWatch(Store& store, const Job& job, AttemptLog& log, const At
 RunnerOutcome RunnerWatch::watch(const RunnerOrder& order) {
   socket_.send(to_line(order));
   while (wait_for_news()) {
+    keep_lease();
     heed_signals();
     hear_events();
     hear_log();
@@ -40,11 +43,9 @@ bool RunnerWatch::wait_for_news() {
                       {signals_.wake, POLLIN, 0},
                       {socket_open_ ? runner_.socket() : -1, POLLIN, 0},
                       {log_open_ ? runner_.log() : -1, POLLIN, 0}};
-  int timeout_ms = -1;
-  if (kill_at_ != Clock::time_point::max()) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(kill_at_ - Clock::now());
-    timeout_ms = static_cast<int>(std::max<std::int64_t>(0, left.count() + 1));
-  }
+  const Clock::time_point next = std::min(kill_at_, next_heartbeat_);
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(next - Clock::now());
+  const int timeout_ms = static_cast<int>(std::max<std::int64_t>(0, left.count() + 1));
   if (::poll(watched, std::size(watched), timeout_ms) < 0 && errno != EINTR) runner_.kill();
   if (watched[1].revents & POLLIN) {
     std::uint64_t count = 0;
@@ -58,9 +59,22 @@ bool RunnerWatch::wait_for_news() {
   return !(watched[0].revents & POLLIN);
 }
 
+void RunnerWatch::keep_lease() {
+  if (outcome_.lost || Clock::now() < next_heartbeat_) return;
+  const std::optional<JobState> state = store_.heartbeat(job_.id, job_.attempt);
+  next_heartbeat_ = Clock::now() + kHeartbeatInterval;
+  outcome_.lost = !state;
+  if (outcome_.lost) runner_.kill();
+  if (state == JobState::kCancelling) begin_cancel();
+}
+
 void RunnerWatch::heed_signals() {
   if (signals_.abandoned.load()) runner_.kill();
-  if (!signals_.cancelled.load() || cancel_sent_) return;
+  if (signals_.cancelled.load()) begin_cancel();
+}
+
+void RunnerWatch::begin_cancel() {
+  if (cancel_sent_) return;
   cancel_sent_ = true;
   socket_.send(kCancelLine);
   kill_at_ = Clock::now() + signals_.cancel_grace;

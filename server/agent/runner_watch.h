@@ -21,6 +21,7 @@ struct RunnerOutcome {
   RunnerProcess::End end;
   RunProgress last;  ///< what it was at
   std::string log_tail;
+  bool lost = false;  ///< the lease is another's now, or nobody's: there is nothing left to write
 };
 
 /// What may be asked of a running attempt from outside; `wake` is an eventfd that is written after a change.
@@ -31,8 +32,9 @@ struct AttemptSignals {
   std::chrono::milliseconds cancel_grace;
 };
 
-/// Hears one runner to its end: publishes its frames and progress in the store, keeps its log, passes a
-/// cancel on and ends it by force when that has no effect in time.
+/// Hears one runner to its end: publishes its frames and progress in the store, keeps its log and its lease,
+/// passes a cancel on (from this process, or read from the store) and ends it by force when that has no
+/// effect in time, or when the lease is lost.
 class RunnerWatch {
  public:
   RunnerWatch(Store& store, const Job& job, AttemptLog& log, const AttemptSignals& signals);
@@ -42,7 +44,9 @@ class RunnerWatch {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] bool wait_for_news();  ///< false once the runner has ended
+  void keep_lease();
   void heed_signals();
+  void begin_cancel();
   void hear_events();
   void hear_log();
   void on(const RunProgress& progress);
@@ -60,6 +64,7 @@ class RunnerWatch {
   bool socket_open_ = true;
   bool log_open_ = true;
   Clock::time_point kill_at_ = Clock::time_point::max();
+  Clock::time_point next_heartbeat_ = Clock::now();
   Clock::time_point last_stored_{};
 };
 

@@ -17,6 +17,7 @@ struct AllOptions {
   RunOptions run;
   PlanOptions plan;
   ServeOptions serve;
+  AgentOptions worker;
   SubmitOptions submit;
   bool version_json = false;
   int exit_code = 0;
@@ -64,6 +65,33 @@ void add_limits(CLI::App& command, JobLimits& limits) {
       ->capture_default_str();
 }
 
+void add_store(CLI::App& command, AgentOptions& agent, const std::string& otherwise) {
+  command
+      .add_option(
+          "--store", agent.store,
+          "postgresql://[USER@]HOST[:PORT]/DATABASE; " + otherwise +
+              ". The command line shows to everyone on the machine: leave the password to LATHER_STORE, "
+              "PGPASSWORD or ~/.pgpass (PGPASSFILE); what the URI leaves out is taken from libpq's "
+              "variables (PGHOST, PGUSER, PGSSLMODE, ...)")
+      ->envname("LATHER_STORE");
+  command
+      .add_option("--lease-seconds", agent.lease_seconds,
+                  "with --store: an agent that is silent for so long loses its jobs to others")
+      ->capture_default_str()
+      ->check(CLI::Range(2.0, 3600.0));
+}
+
+void add_agent(CLI::App& command, AgentOptions& agent, int fewest_workers) {
+  command.add_option("--workers", agent.workers, "jobs at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(fewest_workers, 256));
+  command.add_option("--threads", agent.threads, "threads of each job; 0: the cores shared by the workers")
+      ->check(CLI::Range(0, 1024));
+  add_backend(command, agent.render_backend);
+  command.add_option("--runner-memory", agent.runner_memory,
+                     "address space of a runner in bytes; 0: no limit");
+}
+
 void add_serve(CLI::App& program, AllOptions& all) {
   CLI::App& command = *program.add_subcommand("serve", "Take scenes over HTTP, and show the page");
   ServeOptions& serve = all.serve;
@@ -76,19 +104,28 @@ void add_serve(CLI::App& program, AllOptions& all) {
   command.add_option("--data", serve.data, "directory of jobs and store, on a local disk")
       ->capture_default_str();
   command.add_option("--scenes", serve.scenes, "directory of example scenes for the page");
-  command.add_option("--workers", serve.workers, "jobs at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 256));
-  command.add_option("--threads", serve.threads, "threads of each job; 0: the cores shared by the workers")
-      ->check(CLI::Range(0, 1024));
-  add_backend(command, serve.render_backend);
-  command.add_option("--runner-memory", serve.runner_memory,
-                     "address space of a runner in bytes; 0: no limit");
+  add_store(command, serve.agent, "without it SQLite in the data directory");
+  command.add_option(
+      "--artifacts", serve.agent.artifacts,
+      "directory of the jobs' files where workers share them; the data directory if not given");
+  add_agent(command, serve.agent, 0);
   command.add_option("--request-seconds", serve.request_seconds, "time for a request's head to arrive")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
   add_limits(command, serve.limits);
   command.callback([&all] { all.exit_code = serve_command(all.serve); });
+}
+
+void add_worker(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "worker", "Work on the jobs of a server elsewhere that keeps them in PostgreSQL");
+  add_store(command, all.worker, "the database of the server");
+  command
+      .add_option("--artifacts", all.worker.artifacts,
+                  "the server's directory of the jobs' files, as this machine sees it")
+      ->required();
+  add_agent(command, all.worker, 1);
+  command.callback([&all] { all.exit_code = worker_command(all.worker); });
 }
 
 void add_submit(CLI::App& program, AllOptions& all) {
@@ -125,6 +162,7 @@ int parse_and_run(int argc, char** argv) {
   add_run(program, all);
   add_plan(program, all);
   add_serve(program, all);
+  add_worker(program, all);
   add_submit(program, all);
   add_rest(program, all);
   try {

@@ -37,6 +37,17 @@ struct PlanOptions {
 };
 int plan_command(const PlanOptions& options);
 
+/// What an agent needs, whether it is a server's own or a worker.
+struct AgentOptions {
+  std::string store;                ///< postgresql://…; "": SQLite in the data directory
+  std::filesystem::path artifacts;  ///< directory of the jobs' files, seen by the server and all workers
+  int workers = 1;
+  int threads = 0;
+  std::string render_backend = "auto";
+  std::uint64_t runner_memory = 0;  ///< bytes; 0: no limit
+  double lease_seconds = 15;        ///< from an agent's last sign of life to the loss of its jobs
+};
+
 struct ServeOptions {
   std::string host = "127.0.0.1";
   int port = 8080;
@@ -44,14 +55,14 @@ struct ServeOptions {
   std::vector<std::string> allow_host;
   std::filesystem::path data = "lather-data";
   std::filesystem::path scenes;
-  int workers = 1;
-  int threads = 0;
-  std::string render_backend = "auto";
-  std::uint64_t runner_memory = 0;  ///< bytes; 0: no limit
-  double request_seconds = 10;      ///< for a request's head to arrive
+  double request_seconds = 10;  ///< for a request's head to arrive
+  AgentOptions agent;
   JobLimits limits;
 };
 int serve_command(const ServeOptions& options);
+
+/// An agent without HTTP.
+int worker_command(const AgentOptions& options);
 
 struct SubmitOptions {
   SceneSource scene;

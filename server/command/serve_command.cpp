@@ -1,10 +1,7 @@
-#include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,7 +12,7 @@
 #include "server/agent/recovery.h"
 #include "server/artifacts/layout.h"
 #include "server/artifacts/lock_file.h"
-#include "server/command/commands.h"
+#include "server/command/service.h"
 #include "server/http/api.h"
 #include "server/http/listener.h"
 #include "server/store/store.h"
@@ -38,34 +35,12 @@ void require_reachable_on_purpose(const ServeOptions& options) {
         "authentication before it and say --allow-remote"}});
 }
 
-/// Blocked in all threads that are started after this, taken by wait_for_stop() alone.
-sigset_t block_stop_signals() {
-  std::signal(SIGPIPE, SIG_IGN);
-  sigset_t stop;
-  ::sigemptyset(&stop);
-  ::sigaddset(&stop, SIGINT);
-  ::sigaddset(&stop, SIGTERM);
-  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
-  return stop;
-}
-
-void wait_for_stop(const sigset_t& stop) {
-  int signal = 0;
-  ::sigwait(&stop, &signal);
-  spdlog::info("{}: stopping; running jobs go back into the queue", signal == SIGINT ? "SIGINT" : "SIGTERM");
-}
-
 /// A thousand waiting connections need as many descriptors.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
   limit.rlim_cur = limit.rlim_max;
   ::setrlimit(RLIMIT_NOFILE, &limit);
-}
-
-void log_to_stderr() {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("lather"));
-  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
 }
 
 /// The installed or checked-out example scenes, where there are any.
@@ -80,7 +55,7 @@ fs::path find_scenes(const ServeOptions& options) {
   return {};
 }
 
-std::unique_ptr<Store> open_data(const fs::path& data) {
+std::unique_ptr<Store> open_own_store(const fs::path& data) {
   std::unique_ptr<Store> store = open_sqlite_store(data / "lather.db");
   const Recovery done = recover(*store, data);
   if (done.jobs + done.files + done.directories > 0)
@@ -89,14 +64,18 @@ std::unique_ptr<Store> open_data(const fs::path& data) {
   return store;
 }
 
-AgentSettings agent_settings(const ServeOptions& options, const fs::path& data) {
-  AgentSettings settings;
-  settings.data = data;
-  settings.workers = options.workers;
-  settings.threads = options.threads;
-  settings.render_backend = options.render_backend;
-  settings.memory_limit = options.runner_memory;
-  return settings;
+/// No file is swept under a shared store: workers may be writing there.
+std::unique_ptr<Store> open_store(const AgentOptions& options, const fs::path& data) {
+  return options.store.empty() ? open_own_store(data) : open_shared_store(options);
+}
+
+/// Files of jobs that the SQLite store does not know are swept, so it and they stay together.
+fs::path artifacts_directory(const ServeOptions& options, const fs::path& data) {
+  if (options.agent.artifacts.empty()) return data;
+  if (options.agent.store.empty())
+    throw InputError({{"--artifacts", options.agent.artifacts.string(), "only with --store postgresql://…",
+                       "without --store all of it lies in the data directory: name that with --data"}});
+  return fs::absolute(options.agent.artifacts);
 }
 
 ListenerSettings listener_settings(const ServeOptions& options) {
@@ -108,9 +87,9 @@ ListenerSettings listener_settings(const ServeOptions& options) {
   return settings;
 }
 
-ApiSettings api_settings(const ServeOptions& options, const fs::path& data) {
+ApiSettings api_settings(const ServeOptions& options, const fs::path& artifacts) {
   ApiSettings settings;
-  settings.data = data;
+  settings.data = artifacts;
   settings.scenes = find_scenes(options);
   settings.limits = options.limits;
   return settings;
@@ -124,12 +103,14 @@ int serve_command(const ServeOptions& options) {
   raise_descriptor_limit();
   log_to_stderr();
   const fs::path data = fs::absolute(options.data);
-  fs::create_directories(jobs_directory(data));
+  const fs::path artifacts = artifacts_directory(options, data);
+  fs::create_directories(data);
+  fs::create_directories(jobs_directory(artifacts));
   const LockFile lock(data);
-  const std::unique_ptr<Store> store = open_data(data);
+  const std::unique_ptr<Store> store = open_store(options.agent, data);
 
-  Agent agent(*store, agent_settings(options, data));
-  Api api(*store, agent, api_settings(options, data));
+  Agent agent(*store, agent_settings(options.agent, artifacts));
+  Api api(*store, agent, api_settings(options, artifacts));
   Listener listener(listener_settings(options),
                     [&api](const HttpRequest& request) { return api.handle(request); });
   const int port = listener.start(options.host, options.port);

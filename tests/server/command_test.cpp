@@ -49,6 +49,17 @@ TEST_F(Command, BadInputEndsWithTwoAndNamesThePlace) {
   EXPECT_EQ(run("unknown"), 2);
 }
 
+TEST_F(Command, AWorkerNeedsAPostgresqlStoreAndTheServersArtifacts) {
+  std::filesystem::create_directories(out() / "jobs");
+  EXPECT_EQ(run("worker --store sqlite:secret --artifacts " + out().string()), 2);
+  EXPECT_NE(said().find("postgresql://"), std::string::npos) << said();
+  EXPECT_EQ(said().find("secret"), std::string::npos) << said();
+  EXPECT_EQ(run("worker --store postgresql:///none --artifacts " + directory_.path().string()), 2);
+  EXPECT_NE(said().find("lather serve"), std::string::npos) << said();
+  EXPECT_EQ(run("serve --port 0 --artifacts " + out().string() + " --data " + data().string()), 2);
+  EXPECT_NE(said().find("--store"), std::string::npos) << said();
+}
+
 TEST_F(Command, ARunawaySimulationEndsWithThreeAndKeepsItsFrames) {
   EXPECT_EQ(run("run " + scene_file() + " --set /numerics/time_step=0.01 --out " + out().string()), 3)
       << said();
