@@ -53,7 +53,7 @@ Box3 automatic_bounds(const Look& look, const Frame& first) {
   content.min = content.min.cwiseMax(domain.min).cwiseMin(domain.max);
   content.max = content.max.cwiseMin(domain.max).cwiseMax(domain.min);
   if ((content.max.array() < content.min.array()).any()) return domain;
-  content.min.y() = domain.min.y();
+  content.min.y() = std::min(first.floor_height, content.min.y());
   for (const int axis : {0, 2}) {
     content.min[axis] += room * (domain.min[axis] - content.min[axis]);
     content.max[axis] += room * (domain.max[axis] - content.max[axis]);

@@ -79,7 +79,7 @@ Shot make_shot(const Frame& frame, const Look& look, const Look::Camera& camera,
   if (!(shot.content.max.array() >= shot.content.min.array()).all()) shot.content = frame.domain;
 
   const Vec3 middle = frame.domain.center();
-  shot.floor_center = {middle.x(), frame.domain.min.y(), middle.z()};
+  shot.floor_center = {middle.x(), frame.floor_height, middle.z()};
   shot.floor_fade = 2.2 * std::max({frame.domain.extent().x(), frame.domain.extent().z(), 1e-9});
   Box3 seen = shot.content;
   seen.include(frame.domain.min);

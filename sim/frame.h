@@ -54,6 +54,8 @@ struct Frame {
   int dimension = 3;
   double point_radius = 0;  ///< half the initial distance of points, m
   Box3 domain;
+  double floor_height =
+      0;  ///< y of the ground to draw: that of a level plane obstacle, else of the domain's bottom, m
   std::vector<std::string> material_names;
   FramePoints points;
   std::vector<FrameObstacle> obstacles;

@@ -15,8 +15,9 @@ struct Weights1 {
   T d[4];
 };
 
-// One weight is what the others leave of 1. Computed each for itself, their constants (1/6, 2/3) would round the sum off 1
-// by the same bit at every point, and momentum would drift by an epsilon per step instead of walking at random.
+// One weight is what the others leave of 1. Computed each for itself, their constants (1/6, 2/3) would round
+// the sum off 1 by the same bit at every point, and momentum would drift by an epsilon per step instead of
+// walking at random.
 
 /// Cubic, at fraction f in [0, 1] of the cell: first = -1.
 template <class T>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <variant>
 
 #include "sim/plan/seed.h"
 
@@ -40,9 +42,21 @@ double scalar_of(const ParticleSet<Real>& set, const Slot& s, const std::string&
   return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
 }
 
+/// Height of an obstacle that is ground: a visible plane at rest that faces straight up.
+std::optional<double> ground_height(const Obstacle& obstacle) {
+  const Shape* shape = obstacle.shape.get();
+  while (const auto* placed = std::get_if<PlacedShape>(&shape->kind)) shape = placed->shape.get();
+  if (!obstacle.visible || !std::holds_alternative<PlaneShape>(shape->kind) ||
+      !std::holds_alternative<AtRest>(obstacle.motion))
+    return std::nullopt;
+  const Vec3 n = normal(*obstacle.shape, Vec3::Zero(), 1e-3);
+  if (n.y() < 1 - 1e-9) return std::nullopt;
+  return -distance(*obstacle.shape, Vec3::Zero());
+}
+
 }  // namespace
 
-Snapshot::Snapshot(const Scene& scene) {
+Snapshot::Snapshot(const Scene& scene) : floor_height_(scene.domain.box.min.y()) {
   const double detail = std::max(scene.spacing, scene.domain.box.extent().maxCoeff() / 100);
   for (const Obstacle& o : scene.obstacles)
     meshes_.push_back(
@@ -59,6 +73,7 @@ Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) cons
   f.dimension = scene.dimension;
   f.point_radius = 0.5 * point_distance(scene);
   f.domain = scene.domain.box;
+  f.floor_height = floor_height_;
   for (const std::string& name : plan.scalars)
     f.points.scalars.push_back({name, name == "speed" ? "m/s" : "1", {}});
   for (std::size_t m = 0; m < state.sets.size(); ++m) {

@@ -17,7 +17,8 @@ class Snapshot {
   [[nodiscard]] Frame take(const State<Real>& state, const Plan& plan, int index) const;
 
  private:
-  std::vector<std::shared_ptr<const TriangleMesh>> meshes_;  // null: not visible
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes_;  // null: not visible, or drawn as the floor
+  double floor_height_;
 };
 
 }  // namespace lather::mpm

@@ -132,7 +132,8 @@ FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Re
           FrameMeasure part = PointMeasure<Real>::empty();
           const std::size_t first = static_cast<std::size_t>(c) * kChunkTiles;
           const std::size_t end = std::min(first + kChunkTiles, set.tiles());
-          part.fingerprint = fingerprint(set.tile(first), (end - first) * static_cast<std::size_t>(set.layout().stride));
+          part.fingerprint =
+              fingerprint(set.tile(first), (end - first) * static_cast<std::size_t>(set.layout().stride));
           for (std::size_t t = first; t < end; ++t)
             for (int lane = 0; lane < kTile; ++lane)
               if (set.template values<std::uint32_t>(t, Field::kId)[lane] != kNoPoint)

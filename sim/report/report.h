@@ -19,8 +19,9 @@ struct FrameMeasure {
   double time = 0;  ///< s
   std::uint64_t step = 0;
   std::uint64_t points = 0;
-  std::uint64_t fingerprint = 0;  ///< of all bits of all points: equal for any number of threads and after a resume
-  double mass = 0;                       ///< kg
+  std::uint64_t fingerprint =
+      0;            ///< of all bits of all points: equal for any number of threads and after a resume
+  double mass = 0;  ///< kg
   Vec3 momentum = Vec3::Zero();          ///< kg m/s
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin, kg m^2/s, with the affine part of APIC
   Vec3 center_of_mass = Vec3::Zero();    ///< m

@@ -27,7 +27,8 @@ struct Look {
   bool floor = true;                                      ///< draw the domain's bottom
   bool legend = true;                                     ///< when coloured by a scalar
   bool shadows = true;
-  double point_scale = 1.4;  ///< drawn radius over half the initial point distance, dimensionless; 1 leaves gaps
+  double point_scale =
+      1.4;  ///< drawn radius over half the initial point distance, dimensionless; 1 leaves gaps
 };
 
 struct Output {
