@@ -98,7 +98,7 @@ std::shared_ptr<Attempt> Agent::take() {
 }
 
 std::shared_ptr<Attempt> Agent::start(const Job& job) {
-  const auto attempt = std::make_shared<Attempt>(store_, job, settings_);
+  auto attempt = std::make_shared<Attempt>(store_, job, settings_);
   const std::lock_guard lock(mutex_);
   running_.push_back(attempt);
   if (stopping_) attempt->abandon();

@@ -34,6 +34,7 @@ RunnerOutcome RunnerWatch::watch(const RunnerOrder& order) {
   outcome_.end = runner_.wait();
   hear_events();
   hear_log();
+  if (outcome_.last.frames > 0 && !outcome_.lost) store_progress();
   outcome_.log_tail = log_.tail();
   return outcome_;
 }
@@ -107,7 +108,12 @@ void RunnerWatch::on(const RunProgress& progress) {
   const bool last = progress.fraction >= 1;
   outcome_.last = progress;
   if (!last && Clock::now() - last_stored_ < kStoreInterval) return;
+  store_progress();
+}
+
+void RunnerWatch::store_progress() {
   last_stored_ = Clock::now();
+  const RunProgress& progress = outcome_.last;
   JobProgress stored;
   stored.frame = progress.frame;
   stored.frames = progress.frames;

@@ -47,6 +47,7 @@ class RunnerWatch {
   void keep_lease();
   void heed_signals();
   void begin_cancel();
+  void store_progress();
   void hear_events();
   void hear_log();
   void on(const RunProgress& progress);

@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto kDatabasePatience = std::chrono::seconds(3);  // for an HTTP client waits, too
+
 bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "::1" || host.compare(0, 4, "127.") == 0;
 }
@@ -66,7 +68,7 @@ std::unique_ptr<Store> open_own_store(const fs::path& data) {
 
 /// No file is swept under a shared store: workers may be writing there.
 std::unique_ptr<Store> open_store(const AgentOptions& options, const fs::path& data) {
-  return options.store.empty() ? open_own_store(data) : open_shared_store(options);
+  return options.store.empty() ? open_own_store(data) : open_shared_store(options, kDatabasePatience);
 }
 
 /// Files of jobs that the SQLite store does not know are swept, so it and they stay together.

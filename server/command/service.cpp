@@ -4,9 +4,6 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <chrono>
-
 #include "sim/error.h"
 
 namespace lather::server {
@@ -32,7 +29,7 @@ void log_to_stderr() {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
 }
 
-std::unique_ptr<Store> open_shared_store(const AgentOptions& options) {
+std::unique_ptr<Store> open_shared_store(const AgentOptions& options, std::chrono::milliseconds patience) {
   const bool is_postgres =
       options.store.rfind("postgresql://", 0) == 0 || options.store.rfind("postgres://", 0) == 0;
   if (!is_postgres)  // its value is not shown: it may hold a password
@@ -41,7 +38,7 @@ std::unique_ptr<Store> open_shared_store(const AgentOptions& options) {
           "the store shared with workers is a PostgreSQL database, named by --store or LATHER_STORE"}});
   PostgresSettings settings;
   settings.lease_term = std::chrono::milliseconds(static_cast<long>(1000 * options.lease_seconds));
-  settings.patience = std::min(settings.patience, settings.lease_term / 3);
+  settings.patience = patience;
   return open_postgres_store(options.store, settings);
 }
 

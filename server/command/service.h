@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -18,8 +19,10 @@ void wait_for_stop(const sigset_t& stop);
 
 void log_to_stderr();
 
-/// Throws InputError for a URI that is not PostgreSQL's, std::runtime_error when it cannot be opened.
-[[nodiscard]] std::unique_ptr<Store> open_shared_store(const AgentOptions& options);
+/// `patience`: how long a call waits for a database that has gone away. Throws InputError for a URI that is
+/// not PostgreSQL's, std::runtime_error when it cannot be opened.
+[[nodiscard]] std::unique_ptr<Store> open_shared_store(const AgentOptions& options,
+                                                       std::chrono::milliseconds patience);
 
 [[nodiscard]] AgentSettings agent_settings(const AgentOptions& options,
                                            const std::filesystem::path& artifacts);

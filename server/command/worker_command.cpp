@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -30,7 +31,9 @@ int worker_command(const AgentOptions& options) {
   log_to_stderr();
   const fs::path artifacts = fs::absolute(options.artifacts);
   require_artifacts(artifacts);
-  const std::unique_ptr<Store> store = open_shared_store(options);
+  // A restart of the database must not end attempts of hours: it is waited for as long as the leases last.
+  const std::chrono::milliseconds patience(static_cast<long>(1000 * options.lease_seconds * 2 / 3));
+  const std::unique_ptr<Store> store = open_shared_store(options, patience);
   Agent agent(*store, agent_settings(options, artifacts));
   std::printf("working on %d jobs at a time\n", options.workers);
   std::fflush(stdout);

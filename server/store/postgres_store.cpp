@@ -160,6 +160,13 @@ FrameRow read_frame(const pqxx::row& row) {
           row[3].as<int>()};
 }
 
+/// PostgreSQL's texts cannot hold NUL, which a name may: it becomes U+FFFD.
+std::string storable(std::string text) {
+  for (std::size_t at = text.find('\0'); at != std::string::npos; at = text.find('\0', at))
+    text.replace(at, 1, "\uFFFD");
+  return text;
+}
+
 /// A server that is gone without a word is noticed in seconds, not after TCP's quarter of an hour. What the
 /// user wrote comes first.
 std::string with_timeouts(std::string uri) {
@@ -195,7 +202,7 @@ class PostgresStore final : public Store {
     return transact([&](pqxx::work& t) -> std::optional<Job> {
       const Job& job = submission.job;
       const pqxx::result added =
-          t.exec_params(kInsert, job.id, job.name, job.priority, job.created,
+          t.exec_params(kInsert, job.id, storable(job.name), job.priority, job.created,
                         static_cast<std::int64_t>(job.points), job.frame_rate, job.progress.frames,
                         job.idempotency_key, job.request_digest, submission.scene, submission.plan);
       if (!added.empty()) return std::nullopt;
@@ -370,7 +377,7 @@ class PostgresStore final : public Store {
       if (!job || !can_move(job->state, to) || (attempt && job->attempt != *attempt)) return false;
       t.exec_params("UPDATE lather_jobs SET state = $1, error = $2, ended = CASE WHEN $3 THEN " LATHER_NOW_MS
                     " ELSE 0 END WHERE id = $4",
-                    to_string(to), to == JobState::kFailed ? error : job->error, has_ended(to), id);
+                    to_string(to), to == JobState::kFailed ? storable(error) : job->error, has_ended(to), id);
       return true;
     });
   }

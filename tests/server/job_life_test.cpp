@@ -1,9 +1,9 @@
 #include <archive.h>
 #include <archive_entry.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <memory>

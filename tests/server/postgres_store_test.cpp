@@ -134,6 +134,13 @@ TEST(PostgresStore, ManyProcessesMayOpenAnEmptyDatabaseAtOnce) {
   EXPECT_TRUE(stores.back()->find(submission.job.id));
 }
 
+TEST(PostgresStore, KeepsWhatComesAfterANulCharacter) {
+  const std::unique_ptr<Store> store = open_postgres_store(cluster().new_database());
+  const Submission submission = sample_submission(std::string("be\0fore", 7));
+  ASSERT_FALSE(store->add(submission));
+  EXPECT_EQ(store->find(submission.job.id)->name, "be\uFFFDfore");
+}
+
 TEST(PostgresStore, GoesOnWhenItsConnectionBreaks) {
   const std::unique_ptr<Store> store = open_postgres_store(cluster().new_database());
   const Submission submission = sample_submission("foam");

@@ -1,6 +1,8 @@
-#include <signal.h>
-
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +25,10 @@ class Workers : public Blackbox {
                                                 "--artifacts", data().string(),   "--threads",
                                                 "1",           "--lease-seconds", "2"};
     return std::make_unique<Program>(arguments, directory_.path() / "worker.log", "working on");
+  }
+  static std::string environment_of(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/environ", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
   static Json scene_of_13_frames() {
     Json scene = small_scene();
@@ -89,6 +95,19 @@ TEST_F(Workers, GiveTheirJobBackOnSigterm) {
   const std::unique_ptr<Program> other = start_worker();
   ASSERT_TRUE(reaches(id, "succeeded")) << job(id);
   EXPECT_EQ(job(id).at("attempt"), 2);
+}
+
+TEST_F(Workers, TakeTheStoreFromTheEnvironmentAndKeepItFromTheirRunners) {
+  ASSERT_EQ(::setenv("LATHER_STORE", store_.c_str(), 1), 0);
+  const Program worker({"worker", "--artifacts", data().string()}, directory_.path() / "worker.log",
+                       "working on");
+  ASSERT_EQ(::unsetenv("LATHER_STORE"), 0);
+  ASSERT_TRUE(has_frames(post_job(long_scene()), 1));
+  ASSERT_EQ(worker.runners().size(), 1u);
+  EXPECT_NE(environment_of(worker.pid()).find(store_), std::string::npos);
+  const std::string given = environment_of(worker.runners()[0]);
+  EXPECT_NE(given.find("PATH="), std::string::npos);
+  EXPECT_EQ(given.find(store_), std::string::npos);
 }
 
 TEST_F(Workers, LostWhileCancellingLeaveACancelledJob) {
