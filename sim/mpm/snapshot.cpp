@@ -58,10 +58,13 @@ std::optional<double> ground_height(const Obstacle& obstacle) {
 
 Snapshot::Snapshot(const Scene& scene) : floor_height_(scene.domain.box.min.y()) {
   const double detail = std::max(scene.spacing, scene.domain.box.extent().maxCoeff() / 100);
-  for (const Obstacle& o : scene.obstacles)
-    meshes_.push_back(
-        o.visible ? std::make_shared<const TriangleMesh>(tessellate(*o.shape, scene.domain.box, detail))
-                  : nullptr);
+  for (const Obstacle& o : scene.obstacles) {
+    const std::optional<double> ground = scene.dimension == 3 ? ground_height(o) : std::nullopt;
+    if (ground) floor_height_ = std::max(floor_height_, *ground);
+    meshes_.push_back(o.visible && !ground ? std::make_shared<const TriangleMesh>(
+                                                 tessellate(*o.shape, scene.domain.box, detail))
+                                           : nullptr);
+  }
 }
 
 template <class Real>
