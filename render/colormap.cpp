@@ -1,6 +1,7 @@
 #include "render/colormap.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/error.h"
@@ -45,7 +46,7 @@ Rgba ColorMap::at(double t) const {
   Rgba color = {0, 0, 0, 255};
   for (int i = 0; i < 3; ++i)
     color[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
-        channel((*table_)[left], i) * (1 - blend) + channel((*table_)[left + 1], i) * blend + 0.5);
+        std::lround(channel((*table_)[left], i) * (1 - blend) + channel((*table_)[left + 1], i) * blend));
   return color;
 }
 

@@ -18,7 +18,7 @@ const std::array<Color, 6> kPalette = {Color{0.93, 0.93, 0.92}, Color{0.85, 0.55
                                        Color{0.52, 0.72, 0.55}, Color{0.70, 0.56, 0.76}};
 
 std::uint8_t to_byte(double value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 1.0) * 255 + 0.5);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
 }
 
 std::vector<Rgba> material_colors(const Frame& frame, const Look& look) {

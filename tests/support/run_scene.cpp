@@ -7,7 +7,7 @@ std::string ball_scene() {
     "gravity": [0, 0, 0], "duration": 0.1, "frame_rate": 10, "spacing": 0.025,
     "materials": [{"name": "foam", "preset": "shaving-cream"}],
     "bodies": [{"name": "ball", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0.71, 0.33, 0]}}],
-    "numerics": {"time_step": 1e-4}})";
+    "numerics": {"time_step": 2.5e-4}})";
 }
 
 Report run(const std::string& scene_json, const std::vector<Override>& overrides, int threads,

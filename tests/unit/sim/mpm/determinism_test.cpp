@@ -15,7 +15,7 @@ using testing_support::run;
 std::string busy_scene(const char* precision) {
   return std::string(
              R"({"lather": 1, "name": "busy", "domain": {"min": [-0.3, 0, -0.3], "max": [0.3, 0.6, 0.3]},
-    "duration": 0.2, "frame_rate": 20, "spacing": 0.02, "jitter": 0.3, "seed": 7,
+    "duration": 0.08, "frame_rate": 50, "spacing": 0.02, "jitter": 0.3, "seed": 7,
     "materials": [{"name": "foam", "preset": "shaving-cream"}, {"name": "goo", "preset": "oobleck"}],
     "bodies": [
       {"name": "a", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0, 0.2, 0]}, "velocity": [0, -2, 0]},
@@ -32,7 +32,7 @@ class Determinism : public testing::TestWithParam<KernelLevel> {};
 
 TEST_P(Determinism, FinalStateIsBitEqualForAnyNumberOfThreads) {
   for (const char* precision : {"float", "double"}) {
-    const std::vector<Override> shorter = {{"/duration", precision[0] == 'f' ? "0.2" : "0.05"}};
+    const std::vector<Override> shorter = {{"/duration", precision[0] == 'f' ? "0.08" : "0.04"}};
     const Report one = run(busy_scene(precision), shorter, 1, GetParam());
     ASSERT_GT(one.frames.back().elastic_shear_energy, 0);
     ASSERT_NE(one.frames.front().fingerprint, one.frames.back().fingerprint);
