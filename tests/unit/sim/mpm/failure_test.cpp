@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "sim/mpm/step.h"
+#include "sim/plan/planned_fields.h"
+#include "sim/plan/seed.h"
 #include "tests/support/run_scene.h"
 
 namespace lather {
@@ -30,6 +35,22 @@ TEST(Failure, ATooLongStepStopsWithStepTimeQuantityAndAdvice) {
     EXPECT_NE(std::string(e.what()).find("step"), std::string::npos);
   }
   EXPECT_FALSE(simulation->report().frames.empty());
+}
+
+TEST(Failure, ASingleNotANumberIsSeenInTheSameStep) {
+  const Plan plan = make_plan(parse_scene(testing_support::ball_scene()));
+  const mpm::Model<float> model(plan);
+  for (const Field field : {Field::kVelocity, Field::kVolumeChange, Field::kElasticStrain}) {
+    mpm::State<float> state;
+    state.sets.emplace_back(3, planned_fields(plan.scene), plan.scene.domain.box.min, plan.scene.spacing);
+    seed_points(plan.scene,
+                [&](const Seed& s) { state.sets[0].add(s.position, s.velocity, s.velocity_gradient, s.id); });
+    mpm::Stepper<float> stepper(model, 2);
+    EXPECT_TRUE(stepper.step(state, 1e-4).finite);
+    state.sets[0].values<float>(state.sets[0].tiles() / 2, field)[0] =
+        std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(stepper.step(state, 1e-4).finite) << to_string(field);
+  }
 }
 
 TEST(Failure, PointsThatLeaveAnOpenDomainAreRemovedAndCounted) {
