@@ -51,7 +51,7 @@ fs::path find_scenes(const ServeOptions& options) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const char* beside : {"../share/lather/scenes", "../../scenes"}) {
-    const fs::path scenes = (program / beside).lexically_normal();
+    fs::path scenes = (program / beside).lexically_normal();
     if (fs::is_directory(scenes, ignored)) return scenes;
   }
   return {};

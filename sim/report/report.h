@@ -9,8 +9,8 @@
 namespace lather {
 
 struct StageTime {
-  std::string name;
-  double seconds = 0;
+  std::string name;    ///< as in the plan
+  double seconds = 0;  ///< summed over threads
 };
 
 /// What one frame measured of the state, sums taken in a fixed order in double precision.
