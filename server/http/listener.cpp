@@ -134,11 +134,11 @@ class Listener::Server final : public httplib::Server {
       ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     set_pre_routing_handler([this](const httplib::Request&, httplib::Response& to) {
-      fill(answer(*current_), *current_, to);
+      fill(answer(*current_request), *current_request, to);
       return HandlerResponse::Handled;
     });
     set_exception_handler(
-        [](const httplib::Request&, httplib::Response& to, std::exception_ptr) { to.status = 500; });
+        [](const httplib::Request&, httplib::Response& to, const std::exception_ptr&) { to.status = 500; });
   }
 
   ~Server() override { end(); }
@@ -190,9 +190,9 @@ class Listener::Server final : public httplib::Server {
   void serve(OwnedFd& connection, const HttpRequest& request, std::string& rest) {
     GuardedStream stream(connection.get(), plain_head(request), stopping_);
     bool closed = false;
-    current_ = &request;
+    current_request = &request;
     const bool answered = process_request(stream, !request.keep_alive, closed, nullptr);
-    current_ = nullptr;
+    current_request = nullptr;
     if (answered && !stream.failed() && request.keep_alive && !closed && !stopping_.load())
       parking_.add(std::move(connection), std::move(rest));
   }
@@ -230,7 +230,7 @@ class Listener::Server final : public httplib::Server {
       to.set_chunked_content_provider(from.content_type, provide);
   }
 
-  static thread_local const HttpRequest* current_;
+  static thread_local const HttpRequest* current_request;
 
   const AccessRules access_;
   const Listener::Handler handler_;
@@ -240,7 +240,7 @@ class Listener::Server final : public httplib::Server {
   std::thread accepting_;
 };
 
-thread_local const HttpRequest* Listener::Server::current_ = nullptr;
+thread_local const HttpRequest* Listener::Server::current_request = nullptr;
 
 Listener::Listener(ListenerSettings settings, Handler handler)
     : server_(std::make_unique<Server>(std::move(settings), std::move(handler))) {}
