@@ -15,7 +15,7 @@ using testing_support::run;
 std::string busy_scene(const char* precision) {
   return std::string(
              R"({"lather": 1, "name": "busy", "domain": {"min": [-0.3, 0, -0.3], "max": [0.3, 0.6, 0.3]},
-    "duration": 0.08, "frame_rate": 50, "spacing": 0.02, "jitter": 0.3, "seed": 7,
+    "duration": 0.08, "frame_rate": 50, "spacing": 0.03, "jitter": 0.3, "seed": 7,
     "materials": [{"name": "foam", "preset": "shaving-cream"}, {"name": "goo", "preset": "oobleck"}],
     "bodies": [
       {"name": "a", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0, 0.2, 0]}, "velocity": [0, -2, 0]},
