@@ -269,7 +269,7 @@ class SqliteStore final : public Store {
     cancel.bind(1, now_ms());
     const int cancelled = cancel.exec();
     transaction.commit();
-    return static_cast<std::size_t>(queued + cancelled);
+    return static_cast<std::size_t>(queued) + static_cast<std::size_t>(cancelled);
   }
 
  private:

@@ -25,6 +25,7 @@ Output size(int width, int height) {
 /// No floor, no shadow: only what is asked about changes the picture.
 Look bare_look(const Vec3& eye, const Vec3& target) {
   Look look;
+  look.point_scale = 1;  // drawn as large as they are
   look.floor = false;
   look.shadows = false;
   look.camera.automatic = false;
