@@ -3,7 +3,6 @@
 #include <archive.h>
 #include <archive_entry.h>
 
-#include <cerrno>
 #include <memory>
 
 namespace lather::server {
@@ -11,11 +10,17 @@ namespace {
 
 using Sink = std::function<bool(std::string_view)>;
 
-la_ssize_t pass_on(archive* zip, void* sink, const void* bytes, std::size_t size) {
-  if ((*static_cast<const Sink*>(sink))({static_cast<const char*>(bytes), size}))
-    return static_cast<la_ssize_t>(size);
-  archive_set_error(zip, EPIPE, "the reader is gone");
-  return -1;
+/// Where the archive's bytes go. Once it is broken they are dropped, and the library is told that all is
+/// well: after a failed write it would not free its buffers (20 KB a time).
+struct Pipe {
+  const Sink& write;
+  bool broken = false;
+};
+
+la_ssize_t pass_on(archive* /*zip*/, void* to, const void* bytes, std::size_t size) {
+  auto& pipe = *static_cast<Pipe*>(to);
+  if (!pipe.broken) pipe.broken = !pipe.write({static_cast<const char*>(bytes), size});
+  return static_cast<la_ssize_t>(size);
 }
 
 bool add(archive* zip, const ZipEntry& entry) {
@@ -38,15 +43,13 @@ bool write_zip(const std::vector<ZipEntry>& entries, const Sink& write) {
   archive_write_set_format_zip(zip.get());
   archive_write_zip_set_compression_store(zip.get());
   archive_write_set_bytes_in_last_block(zip.get(), 1);
-  Sink sink = write;
-  if (archive_write_open(zip.get(), &sink, nullptr, pass_on, nullptr) != ARCHIVE_OK) return false;
+  Pipe pipe{write};
+  if (archive_write_open(zip.get(), &pipe, nullptr, pass_on, nullptr) != ARCHIVE_OK) return false;
   for (const ZipEntry& entry : entries) {
-    if (!add(zip.get(), entry)) {
-      archive_write_fail(zip.get());
-      return false;
-    }
+    if (!add(zip.get(), entry)) pipe.broken = true;  // nothing that looks like an end may follow
+    if (pipe.broken) break;
   }
-  return archive_write_close(zip.get()) == ARCHIVE_OK;
+  return archive_write_close(zip.get()) == ARCHIVE_OK && !pipe.broken;
 }
 
 }  // namespace lather::server

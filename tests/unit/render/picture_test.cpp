@@ -249,7 +249,9 @@ TEST(Picture, ANearPointHidesTheOneBehindIt) {
 Blob flat_point(float x, float y) {
   Frame nothing = flat_frame(x, y, 0.02);
   nothing.points = {};
-  return changed(draw(flat_frame(x, y, 0.02), Look{}, size(400, 200)), draw(nothing, Look{}, size(400, 200)));
+  Look look;
+  look.point_scale = 1;
+  return changed(draw(flat_frame(x, y, 0.02), look, size(400, 200)), draw(nothing, look, size(400, 200)));
 }
 
 TEST(FlatPicture, LargerYIsHigherAndLargerXIsFurtherRight) {
