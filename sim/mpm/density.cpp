@@ -39,8 +39,7 @@ std::vector<CellBits> occupied_cells(const BlockGrid<Real>& grid, const State<Re
       for (int i = 0; i < range.count; ++i) {
         int cell[3] = {};
         for (int a = 0; a < dim; ++a)
-          cell[a] = set.template values<std::int16_t>(static_cast<std::size_t>(range.first_tile + i / kTile),
-                                                      Field::kCell, a)[i % kTile];
+          cell[a] = set.template values<std::int16_t>(range.tile_of(i), Field::kCell, a)[i % kTile];
         const std::int32_t g = block_of_cell(grid.point_blocks()[b], cell, dim);
         bits[static_cast<std::size_t>(g)] |= CellBits{1} << static_cast<unsigned>(cell_bit(cell, dim));
       }

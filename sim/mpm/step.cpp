@@ -219,7 +219,7 @@ void Stepper<Real>::resolve_particle_collisions(ParticleSet<Real>& set, const Bl
   const bool walls = model_.walls.near(low, high, 0);
   if (near.empty() && !walls) return;
   for (int i = 0; i < range.count; ++i) {
-    const auto t = static_cast<std::size_t>(range.first_tile + i / kTile);
+    const auto t = range.tile_of(i);
     const int lane = i % kTile;
     const Vec3 x = set.position(t, lane);
     Vec3 v = set.velocity(t, lane);

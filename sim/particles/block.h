@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "sim/plan/tile_layout.h"
@@ -30,6 +31,11 @@ struct BlockRange {
   BlockCoord block{};
   std::int32_t first_tile = 0;
   std::int32_t count = 0;  ///< points
+
+  /// The tile of the range's i-th point; its lane is i % kTile.
+  [[nodiscard]] std::size_t tile_of(std::int32_t i) const {
+    return static_cast<std::size_t>(first_tile) + static_cast<std::size_t>(i / kTile);
+  }
 };
 
 /// The box of cells that points may be in, and what happens at its faces when points are sorted.

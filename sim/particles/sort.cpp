@@ -73,7 +73,7 @@ void ParticleSet<Real>::fill_empty_lanes(std::size_t range) {
   const BlockRange& r = ranges_[range];
   const int used = r.count % kTile;
   if (used == 0) return;
-  const auto t = static_cast<std::size_t>(r.first_tile + r.count / kTile);
+  const auto t = r.tile_of(r.count);
   for (int lane = used; lane < kTile;
        ++lane) {  // a copy of the tile's first point: finite, and inside the buffer
     copy_point(tile(t), lane, tile(t), 0);

@@ -58,7 +58,7 @@ TEST(Sort, PutsEveryPointIntoItsBlocksTiles) {
     }
     sum += range.count;
     for (int i = 0; i < range.count; ++i) {
-      const Vec3 x = set.position(static_cast<std::size_t>(range.first_tile + i / kTile), i % kTile) / 0.1;
+      const Vec3 x = set.position(range.tile_of(i), i % kTile) / 0.1;
       for (int a = 0; a < 3; ++a) {
         const double home = 4.0 * range.block[static_cast<std::size_t>(a)];
         EXPECT_GE(x[a], home - kHomeShift - 1e-6);
