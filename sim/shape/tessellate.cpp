@@ -9,7 +9,6 @@ namespace lather {
 namespace {
 
 using tessellation::lathe;
-using tessellation::ProfilePoint;
 using tessellation::ProfileStrip;
 using Vec2 = Eigen::Vector2d;
 

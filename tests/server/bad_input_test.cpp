@@ -20,7 +20,7 @@ class BadInput : public Blackbox {
   Json problem(const RawResponse& response, int status) {
     EXPECT_EQ(response.status, status) << response.body;
     EXPECT_EQ(response.headers.at("content-type"), "application/problem+json");
-    const Json document = Json::parse(response.body);
+    Json document = Json::parse(response.body);
     EXPECT_EQ(document.at("status"), status);
     return document;
   }
