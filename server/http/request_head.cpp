@@ -165,8 +165,7 @@ Outcome read_lines(std::string_view head, const RequestLimits& limits, RequestHe
     if (line.empty()) return std::nullopt;
     if (fields > limits.fields)
       return Refusal{431, "more than " + std::to_string(limits.fields) + " header fields"};
-    Outcome bad =
-        first ? read_request_line(line, limits, result.request) : read_field(line, result.request);
+    Outcome bad = first ? read_request_line(line, limits, result.request) : read_field(line, result.request);
     if (bad) return bad;
     first = false;
   }
