@@ -6,7 +6,7 @@ ShapePtr make(decltype(Shape::kind) kind) {
   return std::make_shared<const Shape>(Shape{std::move(kind)});
 }
 
-ShapePtr place(ShapePtr shape, Vec3 translate, Vec3 rotate_deg, double scale) {
+ShapePtr place(ShapePtr shape, const Vec3& translate, const Vec3& rotate_deg, double scale) {
   return make(PlacedShape(std::move(shape), translate, rotate_deg, scale));
 }
 
