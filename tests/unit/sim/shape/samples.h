@@ -19,7 +19,8 @@ struct Sample {
 };
 
 ShapePtr make(decltype(Shape::kind) kind);
-ShapePtr place(ShapePtr shape, const Vec3& translate, const Vec3& rotate_deg = Vec3::Zero(), double scale = 1);
+ShapePtr place(ShapePtr shape, const Vec3& translate, const Vec3& rotate_deg = Vec3::Zero(),
+               double scale = 1);
 std::vector<Sample> samples();
 
 /// The world of these tests: a box that holds every bounded sample.
