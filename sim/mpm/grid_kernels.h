@@ -83,8 +83,8 @@ void collect(const Real* const* blocks, Real* buffer) {
     buffer[k] = 0;
 }
 
-/// v* = v + dt (f/m + g) [Foam E.3 step 5 with NOTES' correction that v belongs to it]. A node with so little
-/// mass that p/m would lose its digits takes no part.
+/// v* = v + dt (f/m + g) [Foam E.3 step 5; the paper prints it without v, which its FLIP update needs]. A
+/// node with so little mass that p/m would lose its digits takes no part.
 template <class Real, int Dim, bool Apic>
 void update_grid(const mpm::StepConstants<Real>& step, Real* node, Real* increment) {
   constexpr Real kLeastMass = sizeof(Real) == 4 ? Real(1e-34) : Real(1e-290);
