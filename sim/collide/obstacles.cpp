@@ -66,6 +66,7 @@ Walls::Walls(const Scene& scene)
       tolerance_(1e-6 * scene.spacing) {
   for (int a = 0; a < dimension_; ++a) {
     const auto axis = static_cast<std::size_t>(a);
+    periodic_[axis] = scene.domain.periodic[axis];
     closed_[axis] = !scene.domain.periodic[axis] && scene.domain.boundary != Boundary::kOpen;
   }
 }
@@ -76,6 +77,12 @@ bool Walls::near(const Vec3& low, const Vec3& high, double margin) const {
         (low[a] - margin < box_.min[a] || high[a] + margin > box_.max[a]))
       return true;
   return false;
+}
+
+bool Walls::inside(const Vec3& x) const {
+  for (int a = 0; a < dimension_; ++a)
+    if (!periodic_[static_cast<std::size_t>(a)] && (x[a] < box_.min[a] || x[a] > box_.max[a])) return false;
+  return true;
 }
 
 bool Walls::resolve(const Vec3& x, Vec3& velocity) const {

@@ -58,6 +58,9 @@ class Walls {
   /// True when some face lies within `margin` of the box [low, high].
   [[nodiscard]] bool near(const Vec3& low, const Vec3& high, double margin) const;
 
+  /// False beyond a face that is not periodic.
+  [[nodiscard]] bool inside(const Vec3& x) const;
+
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
   /// moves.
   bool resolve(const Vec3& x, Vec3& velocity) const;
@@ -67,6 +70,7 @@ class Walls {
   int dimension_;
   bool stick_;
   std::array<bool, 3> closed_{};
+  std::array<bool, 3> periodic_{};
   double tolerance_;  // a node on the face counts as beyond it
 };
 

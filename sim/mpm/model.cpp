@@ -30,6 +30,21 @@ MaterialConstants<Real> material_constants(const Scene& scene, const HerschelBul
            std::numeric_limits<Real>::epsilon()}};
 }
 
+template <class Real>
+resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds,
+                                   const std::vector<MaterialConstants<Real>>& materials) {
+  resample::Resampler r{resample::Lattice(plan.scene), bounds, {}, {}, {}, {}, 1};
+  for (const MaterialConstants<Real>& m : materials) r.mass.push_back(static_cast<double>(m.mass));
+  const bool cubic = plan.scene.numerics.kernel == Kernel::kCubic;
+  const PointKernels<double>& point = kernel_table<double>(plan.choices.kernel_level).point;
+  r.weights = [cubic, weights = point.weights](double fraction, double* weight) {
+    double derivative[4];
+    return weights(cubic, fraction, weight, derivative);
+  };
+  if (plan.scene.numerics.resampling) r.velocity = plan.scene.numerics.resampling->velocity;
+  return r;
+}
+
 }  // namespace
 
 template <class Real>
@@ -40,6 +55,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
       kernel_table<Real>(plan.choices.kernel_level).step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
   for (const Material& m : scene.materials)
     materials.push_back(material_constants<Real>(scene, m.herschel_bulkley));
+  resampler = make_resampler(plan, bounds, materials);
   // See kHomeShift. A little less, for the rounding of sums of displacements.
   drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;
 }

@@ -34,6 +34,7 @@ class MpmSimulation final : public Simulation {
     seed_points(scene, [&](const Seed& s) {
       state_.sets[s.material].add(s.position, s.velocity, s.velocity_gradient, s.id);
       state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
+      state_.next_id = s.id + 1;
     });
     report_.scene_name = scene.name;
     report_.scene_hash = scene_hash(scene);
@@ -131,11 +132,10 @@ class MpmSimulation final : public Simulation {
 
   void count_removed(std::uint64_t points) {
     report_.points_removed += points;
-    // All points of a material weigh the same; what is gone is what is no longer there.
-    double present = 0;
-    for (std::size_t m = 0; m < state_.sets.size(); ++m)
-      present += static_cast<double>(state_.sets[m].size()) * static_cast<double>(model_.materials[m].mass);
-    if (points > 0 && !report_.frames.empty()) report_.mass_removed = report_.frames.front().mass - present;
+    if (points == 0 || report_.frames.empty()) return;
+    // What is gone is what is no longer there.
+    report_.mass_removed =
+        report_.frames.front().mass - measure_points(plan_.scene, state_.sets, threads_).mass;
   }
 
   [[nodiscard]] std::uint64_t point_count() const {
@@ -151,6 +151,11 @@ class MpmSimulation final : public Simulation {
     m.frame = index;
     m.time = state_.time;
     m.step = state_.step;
+    if (const auto voids = stepper_.interior_voids(state_))
+      m.interior_voids = static_cast<std::int64_t>(*voids);
+    m.points_inserted = state_.resampled.inserted;
+    m.points_merged = state_.resampled.merged;
+    m.resampling_momentum = state_.resampled.momentum_change;
     report_.frames.push_back(m);
     measured_frame_ = index;
     report_.simulated_time = state_.time;

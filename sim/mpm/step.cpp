@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/math/parallel.h"
+#include "sim/mpm/interior_voids.h"
 #include "sim/plan/step_bound.h"
 
 namespace lather::mpm {
@@ -21,6 +22,7 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   state.max_speed = result.max_speed;
   state.time += dt;
   ++state.step;
+  if (resampling_due(state.time - dt, state.time)) result.dropped += avoid_void(state);  // 15
   return result;
 }
 
@@ -251,6 +253,45 @@ template <class Real>
 double Stepper<Real>::volume_fraction(std::size_t block, int node) const {
   return static_cast<double>(grid_.node(block)[node * kQuad]) /
          std::pow(model_.scene.spacing, model_.scene.dimension);
+}
+
+/// Once in every interval of simulated time: when a step crosses a multiple of it. A small tolerance makes
+/// steps that divide the interval hit the same multiples whatever their rounding.
+template <class Real>
+bool Stepper<Real>::resampling_due(double before, double after) const {
+  const auto& resampling = model_.scene.numerics.resampling;
+  if (!resampling) return false;
+  const auto intervals = [&](double time) { return std::floor(time / resampling->interval + 1e-6); };
+  return intervals(after) > intervals(before);
+}
+
+template <class Real>
+std::uint64_t Stepper<Real>::avoid_void(State<Real>& state) {
+  state.sorted = false;
+  const std::uint64_t dropped = sort_when_drifted(state);
+  clock_.time(Stage::kAvoidVoid, [&] {
+    resample::Resampler resampler = model_.resampler;
+    resampler.threads = threads_;
+    std::vector<std::uint32_t> around;
+    resampler.allowed = [&](const Vec3& x) {
+      obstacles_.find_near(x, 0, around);
+      return around.empty() && model_.walls.inside(x);
+    };
+    const resample::Outcome done =
+        resample::avoid_void(state.sets, grid_, resampler, {model_.scene.seed, state.step}, state.next_id);
+    state.resampled.inserted += done.inserted;
+    state.resampled.merged += done.merged;
+    state.resampled.momentum_change += done.momentum_change.norm();
+    state.sorted = done.inserted == 0 && done.merged == 0;
+  });
+  return dropped;
+}
+
+template <class Real>
+std::optional<std::uint64_t> Stepper<Real>::interior_voids(const State<Real>& state) {
+  obstacles_.place(state.time, 0);
+  return count_interior_voids(state.sets, model_.bounds, obstacles_, model_.scene.domain.box.min,
+                              model_.scene.spacing);
 }
 
 template class Stepper<float>;

@@ -6,6 +6,7 @@
 #include "sim/collide/obstacles.h"
 #include "sim/mpm/block_grid.h"
 #include "sim/mpm/levels.h"
+#include "sim/mpm/resample/avoid_void.h"
 #include "sim/particles/particle_set.h"
 #include "sim/report/stage_clock.h"
 
@@ -21,7 +22,15 @@ struct Model {
   std::vector<MaterialConstants<Real>> materials;
   CellBounds bounds;
   Walls walls;
-  double drift_margin;  ///< cells that a point may move between two sorts
+  resample::Resampler resampler;  ///< without obstacles: the stepper has them
+  double drift_margin;            ///< cells that a point may move between two sorts
+};
+
+/// What resampling did since the start.
+struct ResampleTotals {
+  std::uint64_t inserted = 0;
+  std::uint64_t merged = 0;    ///< points that went into others
+  double momentum_change = 0;  ///< sum over all resamplings of |change of momentum|, kg m/s
 };
 
 /// What a checkpoint saves.
@@ -33,6 +42,8 @@ struct State {
   double drift = 0;                     ///< cells, most that any point can have moved since the last sort
   double max_speed = 0;                 ///< m/s, of any point
   bool sorted = false;
+  std::uint32_t next_id = 0;  ///< of the next point that is inserted; ids are never used again
+  ResampleTotals resampled;
 };
 
 /// What a step saw.
@@ -68,6 +79,10 @@ class Stepper {
   [[nodiscard]] const BlockGrid<Real>& grid() const { return grid_; }
   [[nodiscard]] double volume_fraction(std::size_t block, int node) const;
 
+  /// Empty cells inside the material, see count_interior_voids(); obstacles as they stand at the state's
+  /// time.
+  [[nodiscard]] std::optional<std::uint64_t> interior_voids(const State<Real>& state);
+
   [[nodiscard]] const StageClock& clock() const { return clock_; }
   [[nodiscard]] std::size_t bytes() const { return grid_.bytes(); }
 
@@ -80,6 +95,8 @@ class Stepper {
   StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
   void resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
                                    std::vector<std::uint32_t>& near);
+  [[nodiscard]] bool resampling_due(double before, double after) const;
+  std::uint64_t avoid_void(State<Real>& state);
   [[nodiscard]] BlockPoints<Real> points(State<Real>& state, std::size_t set, std::int32_t range,
                                          const std::vector<MaterialConstants<Real>>& materials) const;
 

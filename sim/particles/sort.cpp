@@ -162,6 +162,7 @@ std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
                [&](std::int64_t r) { fill_empty_lanes(static_cast<std::size_t>(r)); });
   const std::uint64_t dropped = size_ - kept;
   size_ = kept;
+  next_ = static_cast<std::uint64_t>(tiles()) * kTile;
   return dropped;
 }
 

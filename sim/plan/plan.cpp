@@ -32,30 +32,41 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
+    if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
   }
   return stages;
 }
+
+/// Interior voids are searched for with a byte a cell, up to this many cells.
+constexpr double kMostSearchedCells = 268435456;
 
 /// Upper end of what a run takes: points twice (sorting), block buffers and grid, a frame and its neighbour
 /// in the queue.
 std::uint64_t expected_memory(const Plan& plan) {
   const Scene& s = plan.scene;
   const double real = s.numerics.precision == Precision::kFloat ? 4 : 8;
+  // Resampling adds points: the paper's scenes grow by up to a third.
+  const double points = (s.numerics.resampling ? 1.5 : 1.0) * static_cast<double>(plan.points);
   double particles = 0;
   for (const PlannedMaterial& m : plan.materials)
     particles += static_cast<double>(m.points) * m.bytes_per_point;
+  particles *= points / static_cast<double>(plan.points);
   const double points_per_block = std::pow(4, s.dimension) * s.points_per_cell;
   // Half as many blocks again as a full packing needs, and a shell of grid blocks around them.
-  const double blocks = 1.5 * static_cast<double>(plan.points) / points_per_block + 27;
+  const double blocks = 1.5 * points / points_per_block + 27;
   const double quads = s.numerics.transfer == Transfer::kApic ? 1 : 2;
   const double buffers = blocks * quads * 4 * real * (std::pow(8, s.dimension) + 4);
   const double grid = 3 * blocks * quads * 4 * real * std::pow(4, s.dimension);
-  const double frame =
-      3.0 * static_cast<double>(plan.points) * (29 + 4 * static_cast<double>(plan.scalars.size()));
+  const double resampling = s.numerics.resampling ? 60 * points : 0;  // the points' bins, distances
+  double cells = 1;
+  for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
+  const double voids = std::min(cells, kMostSearchedCells);
+  const double frame = 3.0 * points * (29 + 4 * static_cast<double>(plan.scalars.size()));
   const double samples =
       static_cast<double>(s.output.width) * s.output.height * s.output.supersampling * s.output.supersampling;
-  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + samples * 60 + 128e6);
+  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + resampling + voids +
+                                    samples * 60 + 128e6);
 }
 
 void warn(Plan& plan) {
@@ -90,6 +101,7 @@ std::vector<Field> planned_fields(const Scene& scene) {
                                Field::kElasticStrain, Field::kId,       Field::kCell};
   if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
   if (scene.look.color_by == "plastic_strain") fields.push_back(Field::kPlasticStrain);
+  if (scene.numerics.resampling) fields.push_back(Field::kShare);
   return fields;
 }
 

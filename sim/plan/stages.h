@@ -16,8 +16,9 @@ enum class Stage : int {
   kUpdateParticles,     ///< 7, 9, 10: deformation, velocities, plastic flow
   kParticleCollisions,  ///< 13
   kPositions,           ///< 14
+  kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 9;
+inline constexpr int kStageCount = 10;
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
                                                                      "rasterize",
@@ -27,6 +28,7 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
                                                                      "collect",
                                                                      "update particles",
                                                                      "particle collisions",
-                                                                     "positions"};
+                                                                     "positions",
+                                                                     "avoid a void"};
 
 }  // namespace lather

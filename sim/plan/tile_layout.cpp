@@ -19,6 +19,8 @@ const char* to_string(Field field) {
       return "affine velocity C";
     case Field::kPlasticStrain:
       return "plastic strain";
+    case Field::kShare:
+      return "share of mass";
     case Field::kId:
       return "id";
     case Field::kCell:
@@ -44,6 +46,8 @@ TileLayout make_layout(int dimension, const std::vector<Field>& fields) {
       case Field::kAffine:
         return {d * d, real};
       case Field::kPlasticStrain:
+        return {1, real};
+      case Field::kShare:
         return {1, real};
       case Field::kId:
         return {1, 4};

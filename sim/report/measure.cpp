@@ -43,7 +43,8 @@ class PointMeasure {
   }
 
   void add(FrameMeasure& m, std::size_t t, int lane) const {
-    const double mass = law_.density * volume_;
+    const double volume = volume_ * set_.share(t, lane);
+    const double mass = law_.density * volume;
     const Vec3 x = set_.position(t, lane);
     const Vec3 v = set_.velocity(t, lane);
     ++m.points;
@@ -63,8 +64,8 @@ class PointMeasure {
     const double trace_B =
         at(Field::kElasticStrain, 0) + at(Field::kElasticStrain, 1) + at(Field::kElasticStrain, 2);
     const ElasticEnergy e = elastic_energy(law_, j, trace_B);
-    m.elastic_volume_energy += volume_ * e.volume;
-    m.elastic_shear_energy += volume_ * e.shear;
+    m.elastic_volume_energy += volume * e.volume;
+    m.elastic_shear_energy += volume * e.shear;
     m.min_volume_ratio = std::min(m.min_volume_ratio, 1 + j);
     m.max_volume_ratio = std::max(m.max_volume_ratio, 1 + j);
   }

@@ -34,6 +34,11 @@ struct FrameMeasure {
   double max_speed = 0;              ///< m/s
   double min_volume_ratio = 0;       ///< smallest J, dimensionless
   double max_volume_ratio = 0;
+  std::int64_t interior_voids = -1;  ///< empty grid cells inside the material; -1: too large to be searched
+  // Resampling, since the start.
+  std::uint64_t points_inserted = 0;
+  std::uint64_t points_merged = 0;  ///< into others
+  double resampling_momentum = 0;   ///< sum of |change of momentum| over all resamplings, kg m/s
   // Grid density m_i/h^3 at interior nodes (every cell under the kernel's support holds a point), over the
   // initial one.
   std::uint64_t interior_nodes = 0;

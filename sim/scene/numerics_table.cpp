@@ -4,6 +4,45 @@ namespace lather::tables {
 
 using namespace descriptor;  // the vocabulary of tables
 
+namespace {
+
+/// Left out, and null, stand for "off": null lets a size or an override take it away.
+Field<Numerics> resampling_field() {
+  Codec<std::optional<Resampling>> codec;
+  const Codec<Resampling> given = object_of(resampling());
+  codec.allowed = given.allowed + ", or null";
+  codec.schema = {{"anyOf", Array{given.schema, Object{{"type", "null"}}}}};
+  codec.read = [given](const Value& value, std::optional<Resampling>& out, const Place& place) {
+    out.reset();
+    return std::holds_alternative<std::nullptr_t>(value.data) || given.read(value, out.emplace(), place);
+  };
+  codec.write = [given](const std::optional<Resampling>& r) { return r ? given.write(*r) : Value(); };
+  Field<Numerics> out = optional<Numerics>("resampling", &Numerics::resampling, codec,
+                                           "inserts points where deformation would open voids, and merges "
+                                           "crowded ones; {} takes the defaults",
+                                           "off");
+  out.write = [given](const Numerics& n) {
+    return n.resampling ? std::optional<Value>(given.write(*n.resampling)) : std::nullopt;
+  };
+  return out;
+}
+
+}  // namespace
+
+const Table<Resampling>& resampling() {
+  using R = Resampling;
+  static const Table<R> table(
+      "resampling", "Points are inserted and merged so that no void opens inside deforming material.",
+      {optional<R>("interval", &R::interval, number("s", above_to(0, kForever)),
+                   "simulated time between two resamplings"),
+       optional<R>("velocity", &R::velocity,
+                   enumeration<NewVelocity>({{"conserving", NewVelocity::kConserving},
+                                             {"interpolated", NewVelocity::kInterpolated}}),
+                   "of a new point: the mean of the points that give it mass (keeps momentum), or "
+                   "interpolated on the grid (the paper's way)")});
+  return table;
+}
+
 const Table<Numerics>& numerics() {
   using N = Numerics;
   static const Table<N> table(
@@ -25,7 +64,8 @@ const Table<Numerics>& numerics() {
        optional<N>("safety_factor", &N::safety_factor, number("1", above_to(0, 1)),
                    "automatic step over its bound"),
        optional<N>("max_time_step", &N::max_time_step, number("s", above_to(0, kForever)),
-                   "largest automatic step")});
+                   "largest automatic step"),
+       resampling_field()});
   return table;
 }
 

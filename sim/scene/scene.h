@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,16 @@ struct Obstacle {
   bool visible = true;
 };
 
+/// How a new point gets its velocity: from the points that give it mass, which conserves momentum, or
+/// interpolated on the grid, which does not.
+enum class NewVelocity { kConserving, kInterpolated };
+
+/// "Avoid a void": points inserted where deformation thins them out, and merged where it crowds them.
+struct Resampling {
+  double interval = 5e-4;  ///< s, simulated, between two resamplings: 50 of the paper's steps
+  NewVelocity velocity = NewVelocity::kConserving;
+};
+
 struct Numerics {
   Kernel kernel = Kernel::kCubic;
   Transfer transfer = Transfer::kFlip;
@@ -64,6 +75,7 @@ struct Numerics {
   double time_step = 0;                     ///< s; 0: from the step bound
   double safety_factor = 0.4;               ///< of the step bound, dimensionless
   double max_time_step = 1e30;              ///< s, of the automatic step
+  std::optional<Resampling> resampling;     ///< none: off
 };
 
 struct Scene {

@@ -75,7 +75,8 @@ std::string scene_reference() {
                     rows(tables::shapes().common()),
                 tables::shapes());
   out += family("motions", "Every motion has a `type`.", tables::motions());
-  out += section(tables::numerics().info()) + section(tables::look().info());
+  out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ");
+  out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());
   return out + cards();
 }
