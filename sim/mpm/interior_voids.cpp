@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/plan/void_search.h"
+
 namespace lather::mpm {
 namespace {
-
-constexpr double kMostCells = 1U << 28U;  // a byte each
 
 /// The searched box of cells, one byte each, z fastest.
 class CellBox {
@@ -125,7 +125,7 @@ std::optional<std::uint64_t> count_interior_voids(const std::vector<ParticleSet<
   });
   if (low[0] > high[0]) return 0;
   CellBox box(bounds, low, high);
-  if (box.size() > kMostCells) return std::nullopt;
+  if (box.size() > kMostSearchedCells) return std::nullopt;
   box.allocate();
   for_cells(sets, bounds.dimension,
             [&](const std::array<int, 3>& c) { box.at(box.index(c)) = CellBox::kTaken; });

@@ -8,6 +8,7 @@
 #include "sim/plan/seed.h"
 #include "sim/plan/stages.h"
 #include "sim/plan/step_bound.h"
+#include "sim/plan/void_search.h"
 
 namespace lather {
 namespace {
@@ -37,9 +38,6 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   }
   return stages;
 }
-
-/// Interior voids are searched for with a byte a cell, up to this many cells.
-constexpr double kMostSearchedCells = 268435456;
 
 /// Upper end of what a run takes: points twice (sorting), block buffers and grid, a frame and its neighbour
 /// in the queue.
