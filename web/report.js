@@ -17,6 +17,7 @@ function measured(report) {
     ["energy, first to last frame", `${number(energy(first))} to ${number(energy(last))} J`],
     ["largest speed", `${number(Math.max(...frames.map((frame) => frame.max_speed)))} m/s`],
     ["volume ratio J, last frame", `${number(last.volume_ratio.min)} to ${number(last.volume_ratio.max)}`],
+    ["torn, last frame", last.weak_fraction ? `${number(100 * last.weak_fraction)} % of points` : ""],
     ["density within 5 %, last frame",
       last.density.interior_nodes ? `${number(100 * last.density.within_5_percent)} % of interior nodes` : "–"],
     ["points removed", report.points_removed ? number(report.points_removed) : ""],

@@ -6,7 +6,7 @@
 namespace lather::mpm {
 namespace {
 
-constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '1'};
+constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '2'};
 
 [[noreturn]] void refuse(const std::string& why) {
   throw InputError({{"", "", "the bytes of a checkpoint of the same scene, kernel level and version", why}});
@@ -55,8 +55,9 @@ void for_figures(Measure& m, const Visit& visit) {
     for (int a = 0; a < 3; ++a) visit((*v)[a]);
   visit(m.kinetic_energy), visit(m.elastic_volume_energy), visit(m.elastic_shear_energy),
       visit(m.gravity_energy);
-  visit(m.max_speed), visit(m.min_volume_ratio), visit(m.max_volume_ratio), visit(m.interior_nodes);
-  visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged), visit(m.resampling_momentum);
+  visit(m.max_speed), visit(m.min_volume_ratio), visit(m.max_volume_ratio), visit(m.weak_fraction);
+  visit(m.interior_nodes), visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged),
+      visit(m.resampling_momentum);
   visit(m.density_mean), visit(m.density_min), visit(m.density_max), visit(m.density_within_5_percent);
 }
 
@@ -79,6 +80,7 @@ std::string write_checkpoint(const State<Real>& state, const Report& report, int
   w.put(frame);
   w.put(state.step), w.put(state.time), w.put(state.drift), w.put(state.max_speed), w.put(state.sorted);
   w.put(state.next_id), w.put(state.resampled);
+  for (const double since : state.since_recovery) w.put(since);
   for_totals(report, [&](const auto& value) { w.put(value); });
   w.put(report.frames.size());
   for (const FrameMeasure& m : report.frames) for_figures(m, [&](const auto& value) { w.put(value); });
@@ -99,6 +101,7 @@ void read_checkpoint(const std::string& bytes, const std::string& key, State<Rea
   r.get(frame);
   r.get(state.step), r.get(state.time), r.get(state.drift), r.get(state.max_speed), r.get(state.sorted);
   r.get(state.next_id), r.get(state.resampled);
+  for (double& since : state.since_recovery) r.get(since);
   for_totals(report, [&](auto& value) { r.get(value); });
   std::size_t frames = 0;
   r.get(frames);

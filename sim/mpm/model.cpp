@@ -20,14 +20,16 @@ CellBounds cell_bounds(const Scene& scene) {
 }
 
 template <class Real>
-MaterialConstants<Real> material_constants(const Scene& scene, const HerschelBulkleyParameters& law) {
+MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
+  const HerschelBulkleyParameters& law = material.herschel_bulkley;
   const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
   return {static_cast<Real>(law.density * volume),
           static_cast<Real>(volume),
           {static_cast<Real>(law.bulk_modulus), static_cast<Real>(law.shear_modulus),
            static_cast<Real>(std::sqrt(2.0 / 3.0) * law.yield_stress), static_cast<Real>(law.viscosity),
            static_cast<Real>(law.flow_index), static_cast<Real>(1 / law.flow_index),
-           std::numeric_limits<Real>::epsilon()}};
+           std::numeric_limits<Real>::epsilon()},
+          {static_cast<Real>(material.tearing.tear_threshold)}};
 }
 
 template <class Real>
@@ -53,8 +55,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   const bool apic = scene.numerics.transfer == Transfer::kApic;
   kernels =
       kernel_table<Real>(plan.choices.kernel_level).step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
-  for (const Material& m : scene.materials)
-    materials.push_back(material_constants<Real>(scene, m.herschel_bulkley));
+  for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
   resampler = make_resampler(plan, bounds, materials);
   // See kHomeShift. A little less, for the rounding of sums of displacements.
   drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;

@@ -1,29 +1,15 @@
 #pragma once
 
-// From points to grid: mass, momentum [Foam E.3 step 1, Algorithm 6] and internal forces [step 3, Algorithm 8
-// without tearing], f_i = -sum_p V_p tau_p grad w_ip. Compiled per kernel level.
+// From points to grid: mass, momentum [Foam E.3 step 1, Algorithm 6] and internal forces [steps 3 and 4,
+// Algorithm 8], f_i = -sum_p V_p tau_p grad w_ip. Compiled per kernel level.
 //
 // A row of four nodes times (mass, x, y, z) is one lane of 16. The weights factorise, so a row costs one
 // multiply-add for momentum and two for force once its plane's lanes are known.
 
-#include "sim/material/herschel_bulkley.h"
 #include "sim/mpm/stencil.h"
+#include "sim/mpm/tear.h"
 
 namespace lather::LATHER_LEVEL {
-
-template <class Real, int Dim>
-inline HerschelBulkleyState<Lane<Real>> load_state(const Tile<Real, Dim>& tile) {
-  const Lane<Real> zero(Real(0));
-  HerschelBulkleyState<Lane<Real>> s;
-  s.volume_change = tile.lane(Field::kVolumeChange);
-  s.strain = {tile.lane(Field::kElasticStrain, 0),
-              tile.lane(Field::kElasticStrain, 1),
-              tile.lane(Field::kElasticStrain, 2),
-              tile.lane(Field::kElasticStrain, 3),
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 4 : 0) : zero,
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 5 : 0) : zero};
-  return s;
-}
 
 /// The points' mass and volume over those of a point as it was sampled: other than 1 only with resampling.
 template <class Real, int Dim>
@@ -42,7 +28,8 @@ struct PointSources {
 
   PointSources(const Tile<Real, Dim>& tile, const mpm::MaterialConstants<Real>& material,
                const mpm::StepConstants<Real>& step) {
-    const Sym3<Lane<Real>> tau = kirchhoff_stress(load_state(tile), material.law);
+    Sym3<Lane<Real>> tau = kirchhoff_stress(load_state(tile), material.law);
+    if (tile.has(Field::kPlasticity)) limit_stress(tile, material.tearing, tau);
     const Lane<Real> share = load_share(tile);
     const Lane<Real> m = share * material.mass;
     const Lane<Real> per_derivative = share * Real(-material.volume / step.cell * (Apic ? step.dt : Real(1)));
@@ -134,8 +121,7 @@ template <class Real, int Dim, bool Cubic, bool Apic>
 void scatter(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
              const mpm::StepConstants<Real>& step, Real* momentum, Real* force) {
   for (int first = 0; first < points.count; first += kLanes) {
-    const Tile<Real, Dim> tile{
-        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     const PointSources<Real, Dim, Apic> sources(tile, *points.material, step);
     const int count = points.count - first < kLanes ? points.count - first : kLanes;

@@ -28,9 +28,10 @@ class MpmSimulation final : public Simulation {
   MpmSimulation(const Plan& plan, int threads)
       : plan_(plan), threads_(threads), model_(plan), stepper_(model_, threads), snapshot_(plan.scene) {
     const Scene& scene = plan.scene;
-    const std::vector<Field> fields = planned_fields(scene);
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-      state_.sets.emplace_back(scene.dimension, fields, scene.domain.box.min, scene.spacing);
+    for (const Material& m : scene.materials)
+      state_.sets.emplace_back(scene.dimension, planned_fields(scene, m), scene.domain.box.min,
+                               scene.spacing);
+    state_.since_recovery.assign(scene.materials.size(), 0);
     seed_points(scene, [&](const Seed& s) {
       state_.sets[s.material].add(s.position, s.velocity, s.velocity_gradient, s.id);
       state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
@@ -109,7 +110,7 @@ class MpmSimulation final : public Simulation {
     d.time = time;
     if (!seen.finite) {
       d.kind = "non-finite";
-      d.quantity = "a point's velocity, J or elastic strain";
+      d.quantity = "a point's velocity, J, elastic strain or deformation";
       d.value = "not a finite number";
     } else if (seen.collapsed) {
       d.kind = "runaway";
@@ -146,6 +147,7 @@ class MpmSimulation final : public Simulation {
 
   void measure(int index) {
     count_removed(stepper_.sort_when_drifted(state_));
+    stepper_.detect_tearing(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     measure_density(stepper_, state_, model_, m);
     m.frame = index;
@@ -164,7 +166,7 @@ class MpmSimulation final : public Simulation {
     report_.stages.clear();
     for (const std::string& name : plan_.stages)
       for (int s = 0; s < kStageCount; ++s)
-        if (name == kStageNames[static_cast<std::size_t>(s)])
+        if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
           report_.stages.push_back({name, stepper_.clock().seconds(static_cast<Stage>(s))});
   }
 

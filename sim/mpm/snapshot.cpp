@@ -34,12 +34,18 @@ std::array<float, 3> as_float(const Vec3& v) {
 }
 
 template <class Real>
-double scalar_of(const ParticleSet<Real>& set, const Slot& s, const std::string& name) {
+double scalar_of(const ParticleSet<Real>& set, const Material& material, const Slot& s,
+                 const std::string& name) {
   const auto lane = static_cast<int>(s.lane);
   if (name == "speed") return set.velocity(s.tile, lane).norm();
   if (name == "J")
     return 1 + static_cast<double>(set.template values<Real>(s.tile, Field::kVolumeChange)[lane]);
-  return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
+  if (name == "plastic_strain")
+    return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
+  if (!set.layout().has(Field::kPlasticity)) return 0;  // a material that does not tear
+  const Real plasticity = set.template values<Real>(s.tile, Field::kPlasticity)[lane];
+  if (name == "plasticity") return static_cast<double>(plasticity);
+  return plasticity > static_cast<Real>(material.tearing.tear_threshold) ? 1 : 0;
 }
 
 /// Height of an obstacle that is ground: a visible plane at rest that faces straight up.
@@ -88,7 +94,8 @@ Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) cons
       f.points.id.push_back(s.id);
       f.points.material.push_back(static_cast<std::uint8_t>(m));
       for (PointScalar& scalar : f.points.scalars)
-        scalar.values.push_back(static_cast<float>(scalar_of(state.sets[m], s, scalar.name)));
+        scalar.values.push_back(
+            static_cast<float>(scalar_of(state.sets[m], scene.materials[m], s, scalar.name)));
     }
   }
   for (std::size_t o = 0; o < meshes_.size(); ++o)

@@ -14,9 +14,11 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   const std::uint64_t dropped = sort_when_drifted(state);
   const StepConstants<Real> constants = this->constants(state, dt);
   obstacles_.place(state.time, dt);
-  rasterize(state, constants, model_.materials);           // 1, 3
+  plan_recovery(state, dt);
+  detect_tearing(state);                                   // 2
+  rasterize(state, constants, model_.materials);           // 1, 3, 4
   update_grid(constants);                                  // 5, 6
-  StepResult result = update_particles(state, constants);  // 7, 9, 10, 13, 14
+  StepResult result = update_particles(state, constants);  // 7 to 11, 13, 14
   result.dropped = dropped;
   state.drift += result.largest_cells;
   state.max_speed = result.max_speed;
@@ -76,6 +78,38 @@ BlockPoints<Real> Stepper<Real>::points(State<Real>& state, std::size_t set, std
   ParticleSet<Real>& s = state.sets[set];
   const BlockRange& r = s.ranges()[static_cast<std::size_t>(range)];
   return {s.tile(static_cast<std::size_t>(r.first_tile)), r.count, &s.layout(), &materials[set]};
+}
+
+/// Plasticity fades as lambda^exp(-t/eta_p), so recovery over one span t equals recovery over its parts, and
+/// need not be computed in every step: a thousandth of the recovery time apart it lags by half as much on
+/// average. That saves most of its eigenvalues, and in single precision lets it move F at all where eta_p is
+/// long.
+template <class Real>
+void Stepper<Real>::plan_recovery(State<Real>& state, double dt) {
+  constexpr double kInterval = 1e-3;  // of the recovery time
+  state.since_recovery.resize(state.sets.size(), 0);
+  recovery_exponent_.assign(state.sets.size(), 0);
+  for (std::size_t s = 0; s < state.sets.size(); ++s) {
+    const TearingParameters& tearing = model_.scene.materials[s].tearing;
+    if (!tearing.recovers()) continue;
+    double& since = state.since_recovery[s];
+    since += dt;
+    if (since < kInterval * tearing.recovery_time) continue;
+    recovery_exponent_[s] = static_cast<Real>(0.5 * std::expm1(-since / tearing.recovery_time));
+    since = 0;
+  }
+}
+
+template <class Real>
+void Stepper<Real>::detect_tearing(State<Real>& state) {
+  for (std::size_t s = 0; s < state.sets.size(); ++s) {
+    if (!state.sets[s].layout().has(Field::kPlasticity)) continue;
+    parallel_for(threads_, static_cast<std::int64_t>(state.sets[s].ranges().size()), 4, [&](std::int64_t r) {
+      clock_.time(Stage::kDetectTearing, [&] {
+        model_.kernels.detect_tearing(points(state, s, static_cast<std::int32_t>(r), model_.materials));
+      });
+    });
+  }
 }
 
 template <class Real>
@@ -181,6 +215,8 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
       const BlockPoints<Real> p = points(state, s, range, model_.materials);
       clock_.time(Stage::kUpdateParticles,
                   [&] { model_.kernels.gather(p, place, step, velocity, increment); });
+      if (recovery_exponent_[s] != Real(0))
+        clock_.time(Stage::kRecovery, [&] { model_.kernels.recover(p, recovery_exponent_[s]); });
       clock_.time(Stage::kParticleCollisions, [&] {
         resolve_particle_collisions(state.sets[s], state.sets[s].ranges()[static_cast<std::size_t>(range)],
                                     near_[thread]);

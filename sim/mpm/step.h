@@ -44,6 +44,7 @@ struct State {
   bool sorted = false;
   std::uint32_t next_id = 0;  ///< of the next point that is inserted; ids are never used again
   ResampleTotals resampled;
+  std::vector<double> since_recovery;  ///< s, one a material: time whose recovery is still to come
 };
 
 /// What a step saw.
@@ -77,6 +78,9 @@ class Stepper {
   /// 1 inside undisturbed material. Call after sort_when_drifted().
   void rasterize_volume_fraction(State<Real>& state);
   [[nodiscard]] const BlockGrid<Real>& grid() const { return grid_; }
+
+  /// Brings kPlasticity of all points up to date. Call after sort_when_drifted().
+  void detect_tearing(State<Real>& state);
   [[nodiscard]] double volume_fraction(std::size_t block, int node) const;
 
   /// Empty cells inside the material, see count_interior_voids(); obstacles as they stand at the state's
@@ -93,6 +97,7 @@ class Stepper {
   void update_grid(const StepConstants<Real>& step);
   void resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near);
   StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
+  void plan_recovery(State<Real>& state, double dt);
   void resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
                                    std::vector<std::uint32_t>& near);
   [[nodiscard]] bool resampling_due(double before, double after) const;
@@ -105,6 +110,7 @@ class Stepper {
   Obstacles obstacles_;
   BlockGrid<Real> grid_;
   StageClock clock_;
+  std::vector<Real> recovery_exponent_;           // this step's, one a material; 0: none
   std::vector<std::vector<Real>> scratch_;        // per thread: two block buffers
   std::vector<std::vector<std::uint32_t>> near_;  // per thread
 };

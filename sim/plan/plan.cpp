@@ -30,10 +30,20 @@ std::vector<std::string> planned_stages(const Scene& scene) {
       scene.domain.boundary != Boundary::kOpen && !(scene.domain.periodic[0] && scene.domain.periodic[1] &&
                                                     (scene.dimension == 2 || scene.domain.periodic[2]));
   const bool contact = walls || !scene.obstacles.empty();
+  const auto any_material = [&](bool (TearingParameters::*property)() const) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const Material& m) { return (m.tearing.*property)(); });
+  };
+  const bool tears = any_material(&TearingParameters::tears);
+  const bool recovers = any_material(&TearingParameters::recovers);
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
     if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
+    if (!tears &&
+        (stage == Stage::kDetectTearing || stage == Stage::kLimitForces || stage == Stage::kLimitDeformation))
+      continue;
+    if (!recovers && stage == Stage::kRecovery) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
   }
   return stages;
@@ -85,6 +95,11 @@ void warn(Plan& plan) {
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
   }
+  if ((s.look.color_by == "plasticity" || s.look.color_by == "weak") &&
+      std::none_of(s.materials.begin(), s.materials.end(),
+                   [](const Material& m) { return m.tearing.tears(); }))
+    plan.warnings.push_back("Points are coloured by \"" + s.look.color_by +
+                            "\", which is 0 everywhere: no material has a finite tear_threshold.");
   if (s.numerics.time_step > plan.step_bound)
     plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") +
                             ", is longer than a pressure wave takes through a cell, " +
@@ -94,12 +109,16 @@ void warn(Plan& plan) {
 
 }  // namespace
 
-std::vector<Field> planned_fields(const Scene& scene) {
+std::vector<Field> planned_fields(const Scene& scene, const Material& material) {
   std::vector<Field> fields = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
                                Field::kElasticStrain, Field::kId,       Field::kCell};
   if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
   if (scene.look.color_by == "plastic_strain") fields.push_back(Field::kPlasticStrain);
   if (scene.numerics.resampling) fields.push_back(Field::kShare);
+  if (material.tearing.tears()) {
+    fields.push_back(Field::kDeformation);
+    fields.push_back(Field::kPlasticity);
+  }
   return fields;
 }
 
@@ -119,10 +138,10 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
   if (scene.look.color_by != "material") plan.scalars.push_back(scene.look.color_by);
 
-  const std::vector<Field> fields = planned_fields(scene);
-  const TileLayout layout = layout_of(scene, fields);
   const std::vector<std::uint64_t> points = count_points(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::vector<Field> fields = planned_fields(scene, scene.materials[i]);
+    const TileLayout layout = layout_of(scene, fields);
     PlannedMaterial m;
     m.name = scene.materials[i].name;
     m.points = points[i];

@@ -7,7 +7,7 @@
 
 namespace lather {
 
-/// The fields that some stage of this scene reads, and no others.
-[[nodiscard]] std::vector<Field> planned_fields(const Scene& scene);
+/// The fields that some stage of this scene reads of this material's points, and no others.
+[[nodiscard]] std::vector<Field> planned_fields(const Scene& scene, const Material& material);
 
 }  // namespace lather

@@ -21,10 +21,12 @@ enum class Field : int {
   kAffine,         ///< APIC's C, row by row, 1/s
   kPlasticStrain,  ///< accumulated equivalent plastic strain, dimensionless
   kShare,          ///< mass and volume, over those that a point of the material is sampled with
+  kDeformation,    ///< F - I, row by row in 3D; xx xy yx yy zz in 2D
+  kPlasticity,     ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
   kId,             ///< uint32, stable over the run; kNoPoint in empty lanes
   kCell,           ///< int16 per axis, cell index from the domain's lower corner
 };
-inline constexpr int kFieldCount = 9;
+inline constexpr int kFieldCount = 11;
 inline constexpr std::uint32_t kNoPoint = 0xffffffffU;
 
 /// A position is a cell index plus a fixed-point fraction of the cell width: plain floats would not move at a

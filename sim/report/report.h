@@ -34,6 +34,7 @@ struct FrameMeasure {
   double max_speed = 0;              ///< m/s
   double min_volume_ratio = 0;       ///< smallest J, dimensionless
   double max_volume_ratio = 0;
+  double weak_fraction = 0;          ///< of all points: torn, plasticity above the tear_threshold
   std::int64_t interior_voids = -1;  ///< empty grid cells inside the material; -1: too large to be searched
   // Resampling, since the start.
   std::uint64_t points_inserted = 0;

@@ -37,6 +37,7 @@ Json frame(const FrameMeasure& m) {
             {"gravity", m.gravity_energy}}},
           {"max_speed", m.max_speed},
           {"volume_ratio", {{"min", m.min_volume_ratio}, {"max", m.max_volume_ratio}}},
+          {"weak_fraction", m.weak_fraction},
           {"interior_voids", m.interior_voids < 0 ? Json(nullptr) : Json(m.interior_voids)},
           {"resampling",
            {{"points_inserted", m.points_inserted},

@@ -9,6 +9,7 @@
 
 #include "sim/error.h"
 #include "sim/material/herschel_bulkley_parameters.h"
+#include "sim/material/tearing_parameters.h"
 #include "sim/math/vec.h"
 #include "sim/scene/look.h"
 #include "sim/shape/motion.h"
@@ -35,6 +36,7 @@ struct Material {
   std::string model = "herschel-bulkley";
   std::string preset;  ///< the card it was made from, "" if none
   HerschelBulkleyParameters herschel_bulkley;
+  TearingParameters tearing;
 };
 
 struct Body {

@@ -50,11 +50,13 @@ std::string cards() {
   std::string out =
       "## material cards\n\n| preset | what it is | source | density kg/m^3 | bulk_modulus Pa | "
       "shear_modulus Pa | "
-      "yield_stress Pa | viscosity Pa s^h | flow_index |\n|---|---|---|---|---|---|---|---|---|\n";
+      "yield_stress Pa | viscosity Pa s^h | flow_index | tear_threshold | recovery_time s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const MaterialCard& card : all_material_cards()) {
     out += "| `" + card.name + "` | " + card.words + " | " + card.source;
     Object values;
     tables::herschel_bulkley().write_fields(card.parameters, values);
+    tables::tearing().write_fields(card.tearing, values);
     for (const auto& [name, value] : values) out += " | " + write_json(value);
     out += " |\n";
   }
@@ -69,6 +71,7 @@ std::string scene_reference() {
   out += "Beside these:\n\n" + rows(tables::document_fields());
   out += section(tables::domain().info()) + section(tables::material().info());
   out += section(tables::herschel_bulkley().info(), "### ");
+  out += section(tables::tearing().info(), "### ");
   out += section(tables::body().info()) + section(tables::obstacle().info());
   out += family("shapes",
                 "Every shape has a `type` and takes the keys of its placement beside its own:\n\n" +

@@ -18,6 +18,7 @@ inline constexpr double kForever = 1e30;
 [[nodiscard]] const descriptor::Table<Domain>& domain();
 [[nodiscard]] const descriptor::Table<Material>& material();
 [[nodiscard]] const descriptor::Table<HerschelBulkleyParameters>& herschel_bulkley();
+[[nodiscard]] const descriptor::Table<TearingParameters>& tearing();
 [[nodiscard]] const descriptor::Table<Body>& body();
 [[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();

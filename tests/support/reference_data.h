@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,19 @@ struct SimpleShearRun {
   [[nodiscard]] std::string name() const;
 };
 std::vector<SimpleShearRun> simple_shear_runs();
+
+using Mat9 = std::array<double, 9>;  ///< row by row
+
+/// One weak point over one step: Algorithms 7, 8, 11 (limited) and 14 of "Continuum Foam". SI units.
+struct TearingCase {
+  Mat9 F, be;  ///< before the step; det be = 1
+  double kappa, mu, dt, recovery_time;
+  Mat9 velocity_gradient;
+  double plasticity;
+  Mat9 cauchy, cauchy_limited;                ///< Pa
+  Mat9 f_limited, F_limited, be_pre_limited;  ///< after the limited step
+  Mat9 F_recovered;                           ///< of F, by dt of recovery
+};
+std::vector<TearingCase> tearing_cases();
 
 }  // namespace lather::testing_support

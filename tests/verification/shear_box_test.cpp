@@ -103,7 +103,7 @@ TEST_P(ShearBox, StressesFollowTheReferenceWithinTwoPercent) {
   const Plan plan = make_plan(scene);
   const mpm::Model<double> model(plan);
   mpm::State<double> state;
-  state.sets.emplace_back(3, planned_fields(scene), scene.domain.box.min, scene.spacing);
+  state.sets.emplace_back(3, planned_fields(scene, scene.materials[0]), scene.domain.box.min, scene.spacing);
   seed_points(scene,
               [&](const Seed& s) { state.sets[0].add(s.position, s.velocity, s.velocity_gradient, s.id); });
   ASSERT_GT(state.sets[0].size(), 1000U);

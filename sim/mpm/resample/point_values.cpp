@@ -6,8 +6,8 @@
 namespace lather::mpm::resample {
 
 PointValues::PointValues(const TileLayout& layout) {
-  for (const Field f :
-       {Field::kVelocity, Field::kVolumeChange, Field::kElasticStrain, Field::kAffine, Field::kPlasticStrain})
+  for (const Field f : {Field::kVelocity, Field::kVolumeChange, Field::kElasticStrain, Field::kAffine,
+                        Field::kPlasticStrain, Field::kDeformation, Field::kPlasticity})
     if (layout.has(f))
       for (int c = 0; c < layout.components[static_cast<int>(f)]; ++c) rows_.push_back({f, c});
 }
@@ -27,6 +27,29 @@ std::size_t PointValues::components(Field field) const {
 }
 
 void PointValues::renormalize(double* values) const {
+  renormalize_strain(values);
+  if (has(Field::kDeformation)) renormalize_deformation(values);
+}
+
+void PointValues::renormalize_deformation(double* values) const {
+  double* g = values + at(Field::kDeformation);  // G = F - I, row by row; xx xy yx yy zz in 2D
+  const bool space = components(Field::kDeformation) == 9;
+  Mat3 F = Mat3::Identity();
+  if (space)
+    for (int i = 0; i < 9; ++i) F(i / 3, i % 3) += g[i];
+  else
+    for (int i = 0; i < 4; ++i) F(i / 2, i % 2) += g[i];
+  if (!space) F(2, 2) += g[4];
+  const double J = 1 + values[at(Field::kVolumeChange)];
+  const double more = std::cbrt(J / F.determinant()) - 1;
+  if (space)
+    for (int i = 0; i < 9; ++i) g[i] += more * F(i / 3, i % 3);
+  else
+    for (int i = 0; i < 4; ++i) g[i] += more * F(i / 2, i % 2);
+  if (!space) g[4] += more * F(2, 2);
+}
+
+void PointValues::renormalize_strain(double* values) const {
   double* b = values + at(Field::kElasticStrain);  // B = be - I: xx yy zz xy (xz yz)
   const bool space = components(Field::kElasticStrain) == 6;
   const double xz = space ? b[4] : 0;

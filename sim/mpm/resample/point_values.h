@@ -30,10 +30,14 @@ class PointValues {
   [[nodiscard]] bool has(Field field) const;
   [[nodiscard]] std::size_t components(Field field) const;
 
-  /// Makes a mean of states a state again: det be = 1, by be <- det(be)^(-1/3) be. [Foam section 6.1]
+  /// Makes a mean of states a state again: det be = 1, by be <- det(be)^(-1/3) be, and det F = J, by
+  /// F <- (J / det F)^(1/3) F. [Foam section 6.1]
   void renormalize(double* values) const;
 
  private:
+  void renormalize_strain(double* values) const;
+  void renormalize_deformation(double* values) const;
+
   struct Row {
     Field field;
     int component;

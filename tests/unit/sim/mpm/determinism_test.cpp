@@ -16,7 +16,8 @@ std::string busy_scene(const char* precision) {
   return std::string(
              R"({"lather": 1, "name": "busy", "domain": {"min": [-0.3, 0, -0.3], "max": [0.3, 0.6, 0.3]},
     "duration": 0.08, "frame_rate": 50, "spacing": 0.03, "jitter": 0.3, "seed": 7,
-    "materials": [{"name": "foam", "preset": "shaving-cream"}, {"name": "goo", "preset": "oobleck"}],
+    "materials": [{"name": "foam", "preset": "shaving-cream", "tear_threshold": "infinity"},
+                  {"name": "goo", "preset": "oobleck", "tear_threshold": "infinity"}],
     "bodies": [
       {"name": "a", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0, 0.2, 0]}, "velocity": [0, -2, 0]},
       {"name": "b", "material": "goo", "shape": {"type": "box", "size": [0.12, 0.12, 0.12], "translate": [0.1, 0.42, 0]}, "velocity": [-0.5, -3, 0]}],

@@ -42,7 +42,8 @@ TEST(Failure, ASingleNotANumberIsSeenInTheSameStep) {
   const mpm::Model<float> model(plan);
   for (const Field field : {Field::kVelocity, Field::kVolumeChange, Field::kElasticStrain}) {
     mpm::State<float> state;
-    state.sets.emplace_back(3, planned_fields(plan.scene), plan.scene.domain.box.min, plan.scene.spacing);
+    state.sets.emplace_back(3, planned_fields(plan.scene, plan.scene.materials[0]), plan.scene.domain.box.min,
+                            plan.scene.spacing);
     seed_points(plan.scene,
                 [&](const Seed& s) { state.sets[0].add(s.position, s.velocity, s.velocity_gradient, s.id); });
     mpm::Stepper<float> stepper(model, 2);

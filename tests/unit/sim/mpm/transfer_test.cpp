@@ -51,7 +51,7 @@ struct Sample {
         table(mpm::kernel_table<double>(level)),
         kernels(table.step[dim - 2][with_cubic ? 1 : 0][with_apic ? 1 : 0]),
         set(dim, fields(with_apic), Vec3::Zero(), kCell) {
-    material = {0.5, 0.002, {1000, 300, 1e300, 1, 1, 1, 2.2e-16}};
+    material = {0.5, 0.002, {1000, 300, 1e300, 1, 1, 1, 2.2e-16}, {1e300}};
     std::mt19937 rng(static_cast<unsigned>(11 + dim));
     std::uniform_real_distribution<double> place(3.5, 7.5);
     std::uniform_real_distribution<double> value(-1, 1);

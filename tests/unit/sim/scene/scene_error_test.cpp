@@ -87,14 +87,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneError,
-    testing::Values(
-        Wrong{"/spaceing", "1", "/spaceing", "Did you mean \"spacing\"?"},
-        Wrong{"/numerics/timestep", "1", "/numerics/timestep", "Did you mean \"time_step\"?"},
-        Wrong{"/materials/0/tear_threshold", "1", "/materials/0/tear_threshold", "not known here"},
-        Wrong{"/materials/0/recovery_time", "1", "/materials/0/recovery_time", "not known here"},
-        Wrong{"/bodies/0/shape/raduis", "1", "/bodies/0/shape/raduis", "Did you mean \"radius\"?"},
-        Wrong{"/a~1b", "1", "/a~1b", "not known here"},
-        Wrong{"/look/camera/fov", "30", "/look/camera/fov", "not known here"}));
+    testing::Values(Wrong{"/spaceing", "1", "/spaceing", "Did you mean \"spacing\"?"},
+                    Wrong{"/numerics/timestep", "1", "/numerics/timestep", "Did you mean \"time_step\"?"},
+                    Wrong{"/materials/0/tear_treshold", "1", "/materials/0/tear_treshold",
+                          "Did you mean \"tear_threshold\"?"},
+                    Wrong{"/materials/0/cohesion", "1", "/materials/0/cohesion", "not known here"},
+                    Wrong{"/bodies/0/shape/raduis", "1", "/bodies/0/shape/raduis",
+                          "Did you mean \"radius\"?"},
+                    Wrong{"/a~1b", "1", "/a~1b", "not known here"},
+                    Wrong{"/look/camera/fov", "30", "/look/camera/fov", "not known here"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, SceneError,
