@@ -1,6 +1,6 @@
 #include <cmath>
-#include <limits>
 
+#include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/step.h"
 
 namespace lather::mpm {
@@ -23,12 +23,8 @@ template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
   const HerschelBulkleyParameters& law = material.herschel_bulkley;
   const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
-  return {static_cast<Real>(law.density * volume),
-          static_cast<Real>(volume),
-          {static_cast<Real>(law.bulk_modulus), static_cast<Real>(law.shear_modulus),
-           static_cast<Real>(std::sqrt(2.0 / 3.0) * law.yield_stress), static_cast<Real>(law.viscosity),
-           static_cast<Real>(law.flow_index), static_cast<Real>(1 / law.flow_index),
-           std::numeric_limits<Real>::epsilon()},
+  return {static_cast<Real>(law.density * volume), static_cast<Real>(volume),
+          herschel_bulkley_constants<Real>(law),
           {static_cast<Real>(material.tearing.tear_threshold)}};
 }
 
