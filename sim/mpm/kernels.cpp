@@ -6,6 +6,7 @@
 #include "sim/mpm/advance.h"
 #include "sim/mpm/gather.h"
 #include "sim/mpm/grid_kernels.h"
+#include "sim/mpm/stiffness.h"
 #include "sim/mpm/tearing_points.h"
 
 namespace lather::LATHER_LEVEL {
@@ -13,10 +14,11 @@ namespace {
 
 template <class Real, int Dim, bool Cubic, bool Apic>
 mpm::Kernels<Real> kernels() {
-  return {detect_tearing<Real, Dim>, scatter<Real, Dim, Cubic, Apic>,
-          reduce<Real, Dim>,         update_grid<Real, Dim, Apic>,
-          collect<Real, Dim>,        gather<Real, Dim, Cubic, Apic>,
-          recover<Real, Dim>,        advance<Real, Dim>};
+  return {detect_tearing<Real, Dim>,  scatter<Real, Dim, Cubic, Apic>,
+          reduce<Real, Dim>,          update_grid<Real, Dim, Apic>,
+          collect<Real, Dim>,         gather<Real, Dim, Cubic, Apic>,
+          recover<Real, Dim>,         advance<Real, Dim>,
+          stiffness<Real, Dim, Cubic>};
 }
 
 template <class Real>

@@ -36,6 +36,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   };
   const bool tears = any_material(&TearingParameters::tears);
   const bool recovers = any_material(&TearingParameters::recovers);
+  const bool semi_implicit = scene.numerics.integration == Integration::kSemiImplicit;
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
@@ -44,6 +45,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
         (stage == Stage::kDetectTearing || stage == Stage::kLimitForces || stage == Stage::kLimitDeformation))
       continue;
     if (!recovers && stage == Stage::kRecovery) continue;
+    if (!semi_implicit && stage == Stage::kSolveVelocities) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
   }
   return stages;
@@ -65,7 +67,8 @@ std::uint64_t expected_memory(const Plan& plan) {
   const double blocks = 1.5 * points / points_per_block + 27;
   const double quads = s.numerics.transfer == Transfer::kApic ? 1 : 2;
   const double buffers = blocks * quads * 4 * real * (std::pow(8, s.dimension) + 4);
-  const double grid = 3 * blocks * quads * 4 * real * std::pow(4, s.dimension);
+  const double vectors = s.numerics.integration == Integration::kSemiImplicit ? 4 : 0;  // the solver's
+  const double grid = 3 * blocks * (quads + vectors) * 4 * real * std::pow(4, s.dimension);
   const double resampling = s.numerics.resampling ? 60 * points : 0;  // the points' bins, distances
   double cells = 1;
   for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
@@ -103,7 +106,7 @@ void warn(Plan& plan) {
                    [](const Material& m) { return m.tearing.tears(); }))
     plan.warnings.push_back("Points are coloured by \"" + s.look.color_by +
                             "\", which is 0 everywhere: no material has a finite tear_threshold.");
-  if (s.numerics.time_step > plan.step_bound)
+  if (s.numerics.integration == Integration::kExplicit && s.numerics.time_step > plan.step_bound)
     plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") +
                             ", is longer than a pressure wave takes through a cell, " +
                             number(plan.step_bound, "s") +

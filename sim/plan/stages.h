@@ -13,6 +13,7 @@ enum class Stage : int {
   kLimitForces,         ///< 4, within kRasterize
   kReduce,              ///< block buffers to the grid
   kGridVelocities,      ///< 5
+  kSolveVelocities,     ///< 5, semi-implicit: velocities at the end of the step
   kGridCollisions,      ///< 6
   kCollect,             ///< grid to block buffers
   kUpdateParticles,     ///< 7, 9, 10: deformation, velocities, plastic flow
@@ -22,7 +23,7 @@ enum class Stage : int {
   kPositions,           ///< 14
   kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 14;
+inline constexpr int kStageCount = 15;
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
                                                                      "detect tearing",
@@ -30,6 +31,7 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
                                                                      "limit forces",
                                                                      "reduce",
                                                                      "grid velocities",
+                                                                     "solve velocities",
                                                                      "grid collisions",
                                                                      "collect",
                                                                      "update particles",
