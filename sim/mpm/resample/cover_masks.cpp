@@ -34,7 +34,10 @@ const CoverMasks& CoverMasks::of(int dimension) {
 }
 
 CoverMasks::CoverMasks(int dimension)
-    : dimension_(dimension), places_(dimension == 3 ? 9 : 27), parts_(dimension == 3 ? 4 : 8) {
+    : dimension_(dimension),
+      places_(dimension == 3 ? 9 : 27),
+      parts_(dimension == 3 ? 4 : 8),
+      cover_radius_(cover_radius(dimension)) {
   const int zp = dimension == 3 ? places_ : 1;
   const int zc = dimension == 3 ? 1 : 0;
   for (int p = 0; p < places_ * places_ * zp; ++p) {
@@ -79,22 +82,32 @@ std::uint64_t CoverMasks::mask(const std::array<int, 3>& place, const std::array
   return bits;
 }
 
+void CoverMasks::clear(const Lattice& lattice, std::vector<std::uint64_t>& covered) const {
+  const int n = lattice.width + 2 * kMargin;
+  covered.assign(static_cast<std::size_t>(n * n * (dimension_ == 3 ? n : 1)), 0);
+}
+
 void CoverMasks::cover(const Lattice& lattice, const Local& x, std::vector<std::uint64_t>& covered) const {
   int cell[3] = {0, 0, 0};
   int place = 0;
+  float corner = 0;  // squared distance of the farthest one of the own cell
   for (int a = 0; a < dimension_; ++a) {
     const float at = x[static_cast<std::size_t>(a)];
-    cell[a] = static_cast<int>(std::floor(at));
-    const auto p = static_cast<int>((at - static_cast<float>(cell[a])) * static_cast<float>(places_));
-    place = place * places_ + std::min(p, places_ - 1);
+    cell[a] = static_cast<int>(at + kMargin) - kMargin;  // the floor: x is at least -kMargin
+    const float f = at - static_cast<float>(cell[a]);
+    place = place * places_ + std::min(static_cast<int>(f * static_cast<float>(places_)), places_ - 1);
+    const float far = std::max(f, 1 - f);
+    corner += far * far;
   }
   const int zc = dimension_ == 3 ? 1 : 0;
   const std::uint64_t* masks = table_.data() + static_cast<std::ptrdiff_t>(place) * power(3, dimension_);
-  for (int i = cell[0] - 1; i <= cell[0] + 1; ++i)
-    for (int j = cell[1] - 1; j <= cell[1] + 1; ++j)
-      for (int k = cell[2] - zc; k <= cell[2] + zc; ++k, ++masks)
-        if (i >= 0 && i < lattice.width && j >= 0 && j < lattice.width && k >= 0 && k < lattice.depth)
-          covered[static_cast<std::size_t>(lattice.index(i, j, k))] |= *masks;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      std::uint64_t* row = covered.data() + index(lattice, cell[0] + i, cell[1] + j, cell[2] - zc);
+      for (int k = 0; k <= 2 * zc; ++k) row[k] |= *masks++;
+    }
+  const float radius = cover_radius_ - 1e-5F;
+  if (corner <= radius * radius) covered[index(lattice, cell[0], cell[1], cell[2])] = ~std::uint64_t{0};
 }
 
 }  // namespace lather::mpm::resample

@@ -30,17 +30,28 @@ class CoverMasks {
   /// All cells of the tree, coarse to fine.
   [[nodiscard]] const std::vector<TreeCell>& tree() const { return tree_; }
 
-  /// Marks in `covered` (one mask per cell of a block) what the sphere around `x` covers in the 3^dim cells
-  /// around its own; x is relative to the block's corner and may lie a cell outside.
+  /// The masks of one block's cells and of two beyond it on each side, in `covered`: empty.
+  void clear(const Lattice& lattice, std::vector<std::uint64_t>& covered) const;
+  /// Marks what the sphere around `x` covers in the 3^dim cells around its own; x is relative to the block's
+  /// corner and may lie a cell outside. In its own cell the test is exact for the cell as a whole.
   void cover(const Lattice& lattice, const Local& x, std::vector<std::uint64_t>& covered) const;
+  /// Index of a cell's mask.
+  [[nodiscard]] static std::size_t index(const Lattice& lattice, int i, int j, int k) {
+    const int z = lattice.dimension == 3 ? kMargin : 0;
+    return static_cast<std::size_t>(
+        ((i + kMargin) * (lattice.width + 2 * kMargin) + j + kMargin) * (lattice.depth + 2 * z) + k + z);
+  }
 
  private:
   explicit CoverMasks(int dimension);
   [[nodiscard]] std::uint64_t mask(const std::array<int, 3>& place, const std::array<int, 3>& cell) const;
 
+  static constexpr int kMargin = 2;  // cells
+
   int dimension_;
   int places_;  // per axis of a lattice cell
   int parts_;   // the same
+  float cover_radius_;
   std::vector<std::uint64_t> table_;
   std::vector<TreeCell> tree_;
 };

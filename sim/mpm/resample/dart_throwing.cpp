@@ -6,6 +6,7 @@
 #include "sim/math/counter_rng.h"
 #include "sim/math/parallel.h"
 #include "sim/mpm/resample/cover_masks.h"
+#include "sim/mpm/resample/local_points.h"
 
 namespace lather::mpm::resample {
 namespace {
@@ -31,7 +32,8 @@ class BlockDarts {
         distance_(distance),
         key_(key),
         masks_(CoverMasks::of(lattice_.dimension)),
-        radius_(cover_radius(lattice_.dimension)) {}
+        radius_(cover_radius(lattice_.dimension)),
+        points_(bins.lattice()) {}
 
   /// Appends the darts that land in the interior of block b and that no point there covers.
   void throw_into(std::size_t b, std::vector<Dart>& found) {
@@ -40,25 +42,21 @@ class BlockDarts {
                              bins_.blocks()[b].grid[static_cast<std::size_t>(lattice_.neighbour({0, 0, 0}))]),
                          nodes_);
     if (*std::min_element(nodes_.begin(), nodes_.end()) >= kInterior) return;
-    find_covered(b);
+    points_.copy(bins_, b);
+    masks_.clear(lattice_, covered_);
+    for (std::size_t p = 0; p < points_.size(); ++p) masks_.cover(lattice_, points_.at(p), covered_);
     const std::uint64_t block_seed = random_bits(key_.seed, key_.step, block_key(block));
     for (int i = 0; i < lattice_.width; ++i)
       for (int j = 0; j < lattice_.width; ++j)
         for (int k = 0; k < lattice_.depth; ++k) {
-          const int cell = lattice_.index(i, j, k);
-          if (covered_[static_cast<std::size_t>(cell)] != ~std::uint64_t{0} && read_corners(i, j, k))
-            throw_into_cell(b, {i, j, k}, random_bits(block_seed, static_cast<std::uint64_t>(cell)), found);
+          const std::uint64_t covered = covered_[CoverMasks::index(lattice_, i, j, k)];
+          if (covered == ~std::uint64_t{0} || !read_corners(i, j, k)) continue;
+          const auto cell = static_cast<std::uint64_t>(lattice_.index(i, j, k));
+          throw_into_cell({i, j, k}, covered, random_bits(block_seed, cell), found);
         }
   }
 
  private:
-  void find_covered(std::size_t b) {
-    covered_.assign(static_cast<std::size_t>(lattice_.cells()), 0);
-    const int w = lattice_.width;
-    bins_.for_points(b, {-1, -1, -1}, {w, w, w},
-                     [&](std::uint32_t, const Local& x) { masks_.cover(lattice_, x, covered_); });
-  }
-
   /// The distances at a cell's corners; false if none is under kInterior.
   bool read_corners(int i, int j, int k) {
     const int w = lattice_.width + 1;
@@ -80,35 +78,27 @@ class BlockDarts {
     return in_plane(0) + f[2] * (in_plane(4) - in_plane(0));
   }
 
-  void throw_into_cell(std::size_t b, const std::array<int, 3>& cell, std::uint64_t seed,
+  void throw_into_cell(const std::array<int, 3>& cell, std::uint64_t covered, std::uint64_t seed,
                        std::vector<Dart>& found) {
-    near_.clear();
-    const std::uint64_t covered =
-        covered_[static_cast<std::size_t>(lattice_.index(cell[0], cell[1], cell[2]))];
     const auto& tree = masks_.tree();
     for (std::size_t t = 0; t < tree.size(); ++t) {
       const TreeCell& part = tree[t];
       if ((part.mask & ~covered) == 0) continue;
-      if (near_.empty()) {
-        bins_.for_points(b, {cell[0] - 1, cell[1] - 1, cell[2] - 1}, {cell[0] + 1, cell[1] + 1, cell[2] + 1},
-                         [&](std::uint32_t, const Local& x) { near_.push_back(x); });
-      }
       const std::uint64_t bits = random_bits(seed, t);
       Local f{};
       Local x{};
       for (std::size_t a = 0; a < static_cast<std::size_t>(lattice_.dimension); ++a) {
         constexpr std::uint64_t kDraw = (1U << 21U) - 1;  // three numbers out of 64 bits
-        f[a] = part.low[a] + part.width * (static_cast<float>(bits >> (21 * a) & kDraw) + 0.5F) /
-                                 static_cast<float>(kDraw + 1);
+        const float draw =
+            (static_cast<float>(bits >> (21 * a) & kDraw) + 0.5F) / static_cast<float>(kDraw + 1);
+        f[a] = part.low[a] + part.width * draw;
         x[a] = static_cast<float>(cell[a]) + f[a];
       }
-      if (!covered_by_points(x) && interpolate(f) < kInterior) found.push_back({part.width, x});
+      const bool hit = points_.any_around(cell[0], cell[1], cell[2], [&](const Local& p) {
+        return squared_distance(p, x) <= radius_ * radius_;
+      });
+      if (!hit && interpolate(f) < kInterior) found.push_back({part.width, x});
     }
-  }
-
-  [[nodiscard]] bool covered_by_points(const Local& x) const {
-    return std::any_of(near_.begin(), near_.end(),
-                       [&](const Local& p) { return squared_distance(p, x) <= radius_ * radius_; });
   }
 
   const PointBins& bins_;
@@ -118,8 +108,8 @@ class BlockDarts {
   const CoverMasks& masks_;
   float radius_;
   std::vector<float> nodes_;
+  LocalPoints points_;
   std::vector<std::uint64_t> covered_;
-  std::vector<Local> near_;
   float corners_[8] = {};
 };
 

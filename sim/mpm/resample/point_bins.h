@@ -67,11 +67,13 @@ class PointBins {
   }
   [[nodiscard]] std::uint32_t last(std::size_t b, int to) const { return first(b, to + 1); }
 
+  /// Index of point block b among all blocks.
+  [[nodiscard]] std::size_t home(std::size_t b) const {
+    return static_cast<std::size_t>(blocks_[b].grid[static_cast<std::size_t>(lattice_.neighbour({0, 0, 0}))]);
+  }
   /// The point block at `offset` from point block b, -1 if it has no points.
   [[nodiscard]] std::int32_t neighbour(std::size_t b, const std::array<int, 3>& offset) const {
-    const std::int32_t home = blocks_[b].grid[static_cast<std::size_t>(lattice_.neighbour({0, 0, 0}))];
-    return around_[static_cast<std::size_t>(home)]
-        .points[static_cast<std::size_t>(lattice_.neighbour(offset))];
+    return around_[home(b)].points[static_cast<std::size_t>(lattice_.neighbour(offset))];
   }
 
   /// The block at `offset` from one of all blocks, -1 if there is none.
@@ -82,7 +84,13 @@ class PointBins {
   /// Calls visit(p, x) for the points p of the cells low … high around point block b, both included, x being
   /// relative to b's corner; cells count from that corner and may lie up to a block outside. Fixed order.
   template <class Visit>
-  void for_points(std::size_t b, std::array<int, 3> low, std::array<int, 3> high, const Visit& visit) const;
+  void for_points(std::size_t b, std::array<int, 3> low, std::array<int, 3> high, const Visit& visit) const {
+    for_points_around(home(b), low, high, visit);
+  }
+  /// The same around one of all blocks.
+  template <class Visit>
+  void for_points_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
+                         const Visit& visit) const;
 
  private:
   template <class Real>
@@ -104,8 +112,8 @@ class PointBins {
 }
 
 template <class Visit>
-void PointBins::for_points(std::size_t b, std::array<int, 3> low, std::array<int, 3> high,
-                           const Visit& visit) const {
+void PointBins::for_points_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
+                                  const Visit& visit) const {
   if (lattice_.dimension == 2) low[2] = high[2] = 0;
   const auto reach = [&](int a) {
     return block_span(low[static_cast<std::size_t>(a)], high[static_cast<std::size_t>(a)],
@@ -118,7 +126,7 @@ void PointBins::for_points(std::size_t b, std::array<int, 3> low, std::array<int
   for (o[0] = x0; o[0] <= x1; ++o[0])
     for (o[1] = y0; o[1] <= y1; ++o[1])
       for (o[2] = z0; o[2] <= z1; ++o[2]) {
-        const std::int32_t found = neighbour(b, o);
+        const std::int32_t found = around_[block].points[static_cast<std::size_t>(lattice_.neighbour(o))];
         if (found < 0) continue;
         const auto from = static_cast<std::size_t>(found);
         int first_cell[3];

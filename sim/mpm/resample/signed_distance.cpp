@@ -20,63 +20,13 @@ void for_offsets(int dimension, const Visit& visit) {
       for (int k = -z; k <= z; ++k) visit(std::array<int, 3>{i, j, k});
 }
 
-/// Squared distances from points to the nodes of one block, in an array with a margin along z, so that a
-/// point's row of four nodes can be written whole.
-class NearestPoint {
- public:
-  explicit NearestPoint(const Lattice& lattice)
-      : lattice_(lattice),
-        row_(lattice.dimension == 3 ? lattice.depth + 2 * kMargin : 1),
-        squared_(static_cast<std::size_t>(lattice.width * lattice.width * row_), kFar) {}
-
-  /// Nodes one before the point's cell to two after it: no other node lies within r of the point, nor is one
-  /// the end of an edge that starts within r and ends less than 2 r away.
-  void add(const Local& x) {
-    const int ci = static_cast<int>(std::floor(x[0]));
-    const int cj = static_cast<int>(std::floor(x[1]));
-    const int ck = static_cast<int>(std::floor(x[2]));
-    float z[4];
-    for (int k = 0; k < 4; ++k) {
-      const float d = static_cast<float>(ck - 1 + k) - x[2];
-      z[k] = d * d;
-    }
-    for (int i = std::max(ci - 1, 0); i <= std::min(ci + 2, lattice_.width - 1); ++i) {
-      const float dx = static_cast<float>(i) - x[0];
-      for (int j = std::max(cj - 1, 0); j <= std::min(cj + 2, lattice_.width - 1); ++j) {
-        const float dy = static_cast<float>(j) - x[1];
-        const float plane = dx * dx + dy * dy;
-        float* row = squared_.data() + (i * lattice_.width + j) * row_;
-        if (row_ == 1) {
-          *row = std::min(*row, plane);
-          continue;
-        }
-        row += ck - 1 + kMargin;
-        for (int k = 0; k < 4; ++k) {
-          const float s = plane + z[k];
-          row[k] = s < row[k] ? s : row[k];
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] float squared(int i, int j, int k) const {
-    return squared_[static_cast<std::size_t>((i * lattice_.width + j) * row_ +
-                                             (row_ == 1 ? 0 : k + kMargin))];
-  }
-
- private:
-  static constexpr int kMargin = 4;
-  const Lattice& lattice_;
-  int row_;
-  std::vector<float> squared_;
-};
-
 }  // namespace
 
 SignedDistance::SignedDistance(const PointBins& bins, int threads)
     : bins_(bins),
       lattice_(bins.lattice()),
-      distance_(bins.all_blocks().size() * static_cast<std::size_t>(bins.lattice().cells())) {
+      distance_(bins.all_blocks().size() * static_cast<std::size_t>(bins.lattice().cells())),
+      side_(bins.all_blocks().size(), Side::kOutside) {
   const std::size_t count = bins.all_blocks().size();
   const auto blocks = static_cast<std::int64_t>(count);
   parallel_for(threads, blocks, 4, [&](std::int64_t b) { categorize(static_cast<std::size_t>(b)); });
@@ -87,39 +37,78 @@ SignedDistance::SignedDistance(const PointBins& bins, int threads)
   parallel_for(threads, blocks, 4, [&](std::int64_t b) { measure(static_cast<std::size_t>(b), crossings); });
 }
 
-/// Step 1: the distance to the nearest point, minus r.
+/// Step 1: the distance to the nearest point, minus r. A node within r of a point is a corner of the point's
+/// cell, so only inside nodes get their distance here; the few outside ones that matter get it in step 2.
 void SignedDistance::categorize(std::size_t block) {
-  NearestPoint nearest(lattice_);
   const int w = lattice_.width;
+  const int zn = lattice_.dimension == 3 ? 2 : 1;  // a cell's corners along z
+  float* d = nodes(block);
+  std::fill_n(d, lattice_.cells(), kFar);
   for_offsets(lattice_.dimension, [&](const std::array<int, 3>& o) {
-    const std::int32_t found =
-        bins_.all_blocks()[block].points[static_cast<std::size_t>(lattice_.neighbour(o))];
-    if (found < 0) return;
-    const auto from = static_cast<std::size_t>(found);
+    if (o[0] > 0 || o[1] > 0 || o[2] > 0) return;
     int first[3];
     int last[3];
     for (int a = 0; a < 3; ++a) {
-      const int n = lattice_.extent(a);
-      first[a] = o[static_cast<std::size_t>(a)] < 0 ? n - 2 : 0;
-      last[a] = o[static_cast<std::size_t>(a)] > 0 ? 0 : n - 1;
+      first[a] = o[static_cast<std::size_t>(a)] < 0 ? -1 : 0;
+      last[a] = o[static_cast<std::size_t>(a)] < 0 ? -1 : lattice_.extent(a) - 1;
     }
-    for (int i = first[0]; i <= last[0]; ++i)
-      for (int j = first[1]; j <= last[1]; ++j) {
-        const std::uint32_t end = bins_.last(from, lattice_.index(i, j, last[2]));
-        for (std::uint32_t p = bins_.first(from, lattice_.index(i, j, first[2])); p < end; ++p)
-          nearest.add({bins_.local(p, 0) + static_cast<float>(o[0] * w),
-                       bins_.local(p, 1) + static_cast<float>(o[1] * w),
-                       bins_.local(p, 2) + static_cast<float>(o[2] * w)});
-      }
+    bins_.for_points_around(
+        block, {first[0], first[1], first[2]}, {last[0], last[1], last[2]},
+        [&](std::uint32_t, const Local& x) {
+          int c[3];
+          float squared[3][2];
+          for (std::size_t a = 0; a < 3; ++a) {
+            c[a] = static_cast<int>(std::floor(x[a]));
+            const float f = x[a] - static_cast<float>(c[a]);
+            squared[a][0] = f * f;
+            squared[a][1] = (1 - f) * (1 - f);
+          }
+          for (int i = std::max(c[0], 0); i <= std::min(c[0] + 1, w - 1); ++i)
+            for (int j = std::max(c[1], 0); j <= std::min(c[1] + 1, w - 1); ++j)
+              for (int k = std::max(c[2], 0); k <= std::min(c[2] + zn - 1, lattice_.depth - 1); ++k) {
+                const float s = squared[0][i - c[0]] + squared[1][j - c[1]] + squared[2][k - c[2]];
+                float& at = d[lattice_.index(i, j, k)];
+                at = s < at ? s : at;
+              }
+        });
   });
-  float* d = nodes(block);
-  for (int i = 0; i < w; ++i)
-    for (int j = 0; j < w; ++j)
-      for (int k = 0; k < lattice_.depth; ++k) *d++ = std::sqrt(nearest.squared(i, j, k)) - 1;
+  int inside = 0;
+  for (int n = 0; n < lattice_.cells(); ++n) {
+    inside += d[n] < 1 ? 1 : 0;
+    d[n] = d[n] < 1 ? std::sqrt(d[n]) - 1 : kFar;
+  }
+  if (inside > 0) side_[block] = inside == lattice_.cells() ? Side::kInside : Side::kMixed;
+}
+
+/// Distance of a node from the nearest point, minus r; the point is less than 2 r away.
+float SignedDistance::nearest(std::size_t block, const std::array<int, 3>& node) const {
+  float squared = kFar;
+  bins_.for_points_around(block, {node[0] - 2, node[1] - 2, node[2] - 2},
+                          {node[0] + 1, node[1] + 1, node[2] + 1}, [&](std::uint32_t, const Local& x) {
+                            float s = 0;
+                            for (std::size_t a = 0; a < 3; ++a) {
+                              const float along = x[a] - static_cast<float>(node[a]);
+                              s += along * along;
+                            }
+                            squared = std::min(squared, s);
+                          });
+  return std::sqrt(squared) - 1;
+}
+
+/// True if no edge that starts in the block crosses the surface, for all nodes there are on one side.
+bool SignedDistance::uniform_around(std::size_t block) const {
+  bool same = side_[block] != Side::kMixed;
+  for_offsets(lattice_.dimension, [&](const std::array<int, 3>& o) {
+    if (o[0] < 0 || o[1] < 0 || o[2] < 0) return;
+    const std::int32_t there = bins_.beyond(block, o);
+    same = same && side_[block] == (there < 0 ? Side::kOutside : side_[static_cast<std::size_t>(there)]);
+  });
+  return same;
 }
 
 /// Step 2: the surface's points on the lattice's edges, by linear interpolation.
 void SignedDistance::find_crossings(std::size_t block, Crossings& crossings) const {
+  if (uniform_around(block)) return;
   std::vector<float> d;
   copy_nodes(block, d);
   const int w = lattice_.width;
@@ -127,23 +116,35 @@ void SignedDistance::find_crossings(std::size_t block, Crossings& crossings) con
   const int stride[3] = {(w + 1) * zs, zs, 1};
   for (int i = 0; i < w; ++i)
     for (int j = 0; j < w; ++j)
-      for (int k = 0; k < lattice_.depth; ++k) {
-        const int at = i * stride[0] + j * stride[1] + k;
-        const float here = d[static_cast<std::size_t>(at)];
-        for (int a = 0; a < lattice_.dimension; ++a) {
-          const float there = d[static_cast<std::size_t>(at + stride[a])];
+      for (int k = 0; k < lattice_.depth; ++k)
+        for (std::size_t a = 0; a < static_cast<std::size_t>(lattice_.dimension); ++a) {
+          const int at = i * stride[0] + j * stride[1] + k;
+          float here = d[static_cast<std::size_t>(at)];
+          float there = d[static_cast<std::size_t>(at + stride[a])];
           if ((here < 0) == (there < 0)) continue;
+          std::array<int, 3> node = {i, j, k};
+          if (here >= 0) here = nearest(block, node);
+          ++node[a];
+          if (there >= 0) there = nearest(block, node);
           Local x = {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
-          x[static_cast<std::size_t>(a)] += here / (here - there);
+          x[a] += here / (here - there);
           crossings.push_back(x);
         }
-      }
 }
 
 /// Step 3: the distance to the nearest of those points, with the sign of step 1.
 void SignedDistance::measure(std::size_t block, const std::vector<Crossings>& crossings) {
   const int w = lattice_.width;
   const int depth = lattice_.depth;
+  bool any = false;
+  for_offsets(lattice_.dimension, [&](const std::array<int, 3>& o) {
+    const std::int32_t from = bins_.beyond(block, o);
+    any = any || (from >= 0 && !crossings[static_cast<std::size_t>(from)].empty());
+  });
+  if (!any) {
+    std::fill_n(nodes(block), lattice_.cells(), side_[block] == Side::kInside ? -kBand : kBand);
+    return;
+  }
   std::vector<float> squared(static_cast<std::size_t>(lattice_.cells()), kBand * kBand);
   const auto reach = [](float x, int n, int& first, int& last) {
     first = std::max(static_cast<int>(std::ceil(x - kBand)), 0);

@@ -26,6 +26,8 @@ class SignedDistance {
   using Crossings = std::vector<Local>;  ///< points of the surface, each between two nodes
 
   void categorize(std::size_t block);
+  [[nodiscard]] bool uniform_around(std::size_t block) const;
+  [[nodiscard]] float nearest(std::size_t block, const std::array<int, 3>& node) const;
   void find_crossings(std::size_t block, Crossings& crossings) const;
   void measure(std::size_t block, const std::vector<Crossings>& crossings);
 
@@ -39,6 +41,8 @@ class SignedDistance {
   const PointBins& bins_;
   Lattice lattice_;
   std::vector<float> distance_;  // per block and node
+  enum class Side : char { kOutside, kMixed, kInside };
+  std::vector<Side> side_;  // per block: where its nodes lie
 };
 
 }  // namespace lather::mpm::resample
