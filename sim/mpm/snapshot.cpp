@@ -60,7 +60,7 @@ Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) cons
       f.points.material.push_back(static_cast<std::uint8_t>(m));
       for (PointScalar& scalar : f.points.scalars)
         scalar.values.push_back(
-            static_cast<float>(scalar_of(state.sets[m], scene.materials[m], s, scalar.name)));
+            static_cast<float>(scalar_of(state.sets[m], plan.scene.materials[m], s, scalar.name)));
     }
   }
   return f;

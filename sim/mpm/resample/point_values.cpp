@@ -33,20 +33,14 @@ void PointValues::renormalize(double* values) const {
 
 void PointValues::renormalize_deformation(double* values) const {
   double* g = values + at(Field::kDeformation);  // G = F - I, row by row; xx xy yx yy zz in 2D
-  const bool space = components(Field::kDeformation) == 9;
+  const int d = components(Field::kDeformation) == 9 ? 3 : 2;
   Mat3 F = Mat3::Identity();
-  if (space)
-    for (int i = 0; i < 9; ++i) F(i / 3, i % 3) += g[i];
-  else
-    for (int i = 0; i < 4; ++i) F(i / 2, i % 2) += g[i];
-  if (!space) F(2, 2) += g[4];
+  for (int i = 0; i < d * d; ++i) F(i / d, i % d) += g[i];
+  if (d == 2) F(2, 2) += g[4];
   const double J = 1 + values[at(Field::kVolumeChange)];
   const double more = std::cbrt(J / F.determinant()) - 1;
-  if (space)
-    for (int i = 0; i < 9; ++i) g[i] += more * F(i / 3, i % 3);
-  else
-    for (int i = 0; i < 4; ++i) g[i] += more * F(i / 2, i % 2);
-  if (!space) g[4] += more * F(2, 2);
+  for (int i = 0; i < d * d; ++i) g[i] += more * F(i / d, i % d);
+  if (d == 2) g[4] += more * F(2, 2);
 }
 
 void PointValues::renormalize_strain(double* values) const {

@@ -66,7 +66,7 @@ void expect_eigenpairs(const mpm::TearingKernels<Real>& kernels) {
     Eigen::Matrix<Real, 3, 3, Eigen::RowMajor> vector;
     kernels.eigenpairs(a, value.data(), vector.data());
     const Mat V = vector.template cast<double>().transpose();
-    Mat A = rounded.template cast<double>();
+    const Mat& A = rounded.template cast<double>();  // in double, the tensor itself
     const double size = A.cwiseAbs().maxCoeff();
     const Mat back = V * value.template cast<double>().asDiagonal() * V.transpose();
     EXPECT_LE((back - A).cwiseAbs().maxCoeff(), bound * size) << A;

@@ -208,6 +208,32 @@ TEST(PointValues, RenormalizeGivesUnitDeterminant) {
   EXPECT_LT((be - before / std::cbrt(before.determinant())).norm(), 1e-14);
 }
 
+TEST(PointValues, RenormalizeMakesTheDeformationAgreeWithTheVolumeRatio) {
+  for (const int dimension : {2, 3}) {
+    Foam foam(dimension);
+    const PointValues values(foam.sets[0].layout());
+    std::vector<double> v(values.count(), 0.0);
+    double* G = v.data() + values.at(Field::kDeformation);
+    for (std::size_t c = 0; c < values.components(Field::kDeformation); ++c)
+      G[c] = 0.05 * static_cast<double>(c) - 0.1;
+    v[values.at(Field::kVolumeChange)] = 0.2;
+    const auto F = [&] {
+      Mat3 m = Mat3::Identity();
+      if (dimension == 3) {
+        for (int i = 0; i < 9; ++i) m(i / 3, i % 3) += G[i];
+      } else {
+        for (int i = 0; i < 4; ++i) m(i / 2, i % 2) += G[i];
+        m(2, 2) += G[4];
+      }
+      return m;
+    };
+    const Mat3 before = F();
+    values.renormalize(v.data());
+    EXPECT_NEAR(F().determinant(), 1.2, 1e-14);
+    EXPECT_LT((F() - before * std::cbrt(1.2 / before.determinant())).norm(), 1e-14);
+  }
+}
+
 TEST(Merge, JoinsOnlyPointsOfOneMaterialThatAreTooCloseAndKeepsWhatIsConserved) {
   Foam foam(3);
   foam.add({0.5, 0.5, 0.5}, 0, {1, 0, 0});

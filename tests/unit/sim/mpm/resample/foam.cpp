@@ -23,7 +23,8 @@ Foam::Foam(int dimension, bool periodic)
       grid_(dimension, true) {
   const Scene& scene = model_->scene;
   for (int s = 0; s < 2; ++s)
-    sets.emplace_back(dimension, planned_fields(scene, scene.materials[0]), scene.domain.box.min, scene.spacing);
+    sets.emplace_back(dimension, planned_fields(scene, scene.materials[static_cast<std::size_t>(s)]),
+                      scene.domain.box.min, scene.spacing);
   resampler = model_->resampler;
   resampler.allowed = [](const Vec3&) { return true; };
 }
