@@ -19,6 +19,8 @@ struct AllOptions {
   ServeOptions serve;
   AgentOptions worker;
   SubmitOptions submit;
+  RheometerOptions rheometer;
+  VerifyOptions verify;
   bool version_json = false;
   int exit_code = 0;
 };
@@ -139,6 +141,35 @@ void add_submit(CLI::App& program, AllOptions& all) {
   command.callback([&all] { all.exit_code = submit_command(all.submit); });
 }
 
+void add_rheometer(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "rheometer", "Shear a material: its start-up curve, or its steady flow curve with --rates");
+  RheometerOptions& o = all.rheometer;
+  command.add_option("MATERIAL", o.material, "a preset's name, or a JSON file with a material")->required();
+  command.add_option("--rate", o.rate, "shear rate of the start-up, 1/s")->capture_default_str();
+  command.add_option("--time", o.time, "length of the start-up, s")->capture_default_str();
+  command.add_option("--steps", o.steps, "intervals between readings")->capture_default_str();
+  command.add_flag("--box", o.box, "shear a box of points by the whole method, not the law alone");
+  command.add_option("--rates", o.rates, "steady flow curve: LOWEST:HIGHEST[:COUNT], 1/s, e.g. 0.01:100");
+  command.add_flag("--viscosity", o.viscosity,
+                   "with --rates: the chart shows effective viscosity over stress");
+  command.add_option("--threads", o.threads, "threads of the box; 0: all cores")->check(CLI::Range(0, 1024));
+  command.add_flag("--json", o.json, "the whole curve as JSON");
+  command.add_option("--chart", o.chart, "draw the curve into this file (.svg)");
+  command.callback([&all] { all.exit_code = rheometer_command(all.rheometer); });
+}
+
+void add_verify(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "verify", "Compare simulations with exact solutions; fails if a bound is missed");
+  command.add_option("CASE", all.verify.cases, "names of cases; none: all of them");
+  command.add_flag("--quick", all.verify.quick, "without names: only the cases that take seconds");
+  command.add_option("--threads", all.verify.threads, "threads of a step; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--json", all.verify.json, "the table as JSON");
+  command.callback([&all] { all.exit_code = verify_command(all.verify); });
+}
+
 void add_rest(CLI::App& program, AllOptions& all) {
   CLI::App& version = *program.add_subcommand("version", "Print the version");
   version.add_flag("--json", all.version_json, "as JSON");
@@ -164,6 +195,8 @@ int parse_and_run(int argc, char** argv) {
   add_serve(program, all);
   add_worker(program, all);
   add_submit(program, all);
+  add_rheometer(program, all);
+  add_verify(program, all);
   add_rest(program, all);
   try {
     program.parse(argc, argv);

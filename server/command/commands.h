@@ -72,6 +72,29 @@ struct SubmitOptions {
 };
 int submit_command(const SubmitOptions& options);
 
+struct RheometerOptions {
+  std::string material;  ///< a preset's name, or a file
+  double rate = 1;       ///< 1/s
+  double time = 3;       ///< s
+  int steps = 2000;
+  std::string rates;  ///< "lowest:highest[:count]"; "": a start-up
+  bool box = false;
+  bool viscosity = false;
+  int threads = 0;
+  bool json = false;
+  std::filesystem::path chart;
+};
+int rheometer_command(const RheometerOptions& options);
+
+struct VerifyOptions {
+  std::vector<std::string> cases;  ///< none: all
+  bool quick = false;              ///< of all, only those that take seconds
+  int threads = 0;
+  bool json = false;
+};
+/// 0 if all cases pass, else 1.
+int verify_command(const VerifyOptions& options);
+
 int version_command(bool json);
 int schema_command();
 int reference_command();

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <limits>
 
+#include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/step.h"
 
 namespace lather::mpm {
@@ -22,12 +22,8 @@ CellBounds cell_bounds(const Scene& scene) {
 template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const HerschelBulkleyParameters& law) {
   const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
-  return {static_cast<Real>(law.density * volume),
-          static_cast<Real>(volume),
-          {static_cast<Real>(law.bulk_modulus), static_cast<Real>(law.shear_modulus),
-           static_cast<Real>(std::sqrt(2.0 / 3.0) * law.yield_stress), static_cast<Real>(law.viscosity),
-           static_cast<Real>(law.flow_index), static_cast<Real>(1 / law.flow_index),
-           std::numeric_limits<Real>::epsilon()}};
+  return {static_cast<Real>(law.density * volume), static_cast<Real>(volume),
+          herschel_bulkley_constants<Real>(law)};
 }
 
 template <class Real>

@@ -7,6 +7,8 @@
 
 #include "sim/mpm/checkpoint.h"
 #include "sim/mpm/density.h"
+#include "sim/mpm/levels.h"
+#include "sim/mpm/point_states.h"
 #include "sim/mpm/snapshot.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
@@ -61,6 +63,9 @@ class MpmSimulation final : public Simulation {
 
   [[nodiscard]] Frame frame() const override { return snapshot_.take(state_, plan_, measured_frame_); }
   [[nodiscard]] const Report& report() const override { return report_; }
+  void visit_points(const std::function<void(const PointState&)>& visit) const override {
+    visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
+  }
 
   [[nodiscard]] std::string save() const override {
     return write_checkpoint(state_, report_, measured_frame_, checkpoint_key());

@@ -1,37 +1,19 @@
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
+#include "tests/server/command.h"
 
 #include "render/render.h"
-#include "tests/server/blackbox.h"
 
 namespace lather::server {
 namespace {
 
-class Command : public Blackbox {
+class SceneCommand : public Command {
  protected:
   void SetUp() override { std::ofstream(scene_file()) << small_scene().dump(); }
 
   [[nodiscard]] std::string scene_file() const { return (directory_.path() / "scene.json").string(); }
   [[nodiscard]] std::filesystem::path out() const { return directory_.path() / "out"; }
-  /// The exit code; what it printed, both streams, is in said().
-  int run(const std::string& arguments) {
-    const std::string line = std::string(LATHER_PROGRAM) + ' ' + arguments + " > " +
-                             (directory_.path() / "said").string() + " 2>&1";
-    const int status = std::system(line.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string said() const { return read(directory_.path() / "said"); }
-  static std::string read(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
 };
 
-TEST_F(Command, RunWritesFramesReportAndPlan) {
+TEST_F(SceneCommand, RunWritesFramesReportAndPlan) {
   ASSERT_EQ(run("run " + scene_file() + " --threads 1 --out " + out().string()), 0) << said();
   for (const char* name : {"00000.png", "00003.png"})
     EXPECT_EQ(render::decode_png(read(out() / "frames" / name)).width, 160) << name;
@@ -40,7 +22,7 @@ TEST_F(Command, RunWritesFramesReportAndPlan) {
   EXPECT_EQ(Json::parse(read(out() / "plan.json")).at("frames"), 4);
 }
 
-TEST_F(Command, BadInputEndsWithTwoAndNamesThePlace) {
+TEST_F(SceneCommand, BadInputEndsWithTwoAndNamesThePlace) {
   EXPECT_EQ(run("run " + scene_file() + " --set /spacing=-1 --out " + out().string()), 2);
   EXPECT_NE(said().find("/spacing"), std::string::npos) << said();
   EXPECT_EQ(run("plan " + scene_file() + " --set nonsense"), 2);
@@ -49,7 +31,7 @@ TEST_F(Command, BadInputEndsWithTwoAndNamesThePlace) {
   EXPECT_EQ(run("unknown"), 2);
 }
 
-TEST_F(Command, AWorkerNeedsAPostgresqlStoreAndTheServersArtifacts) {
+TEST_F(SceneCommand, AWorkerNeedsAPostgresqlStoreAndTheServersArtifacts) {
   std::filesystem::create_directories(out() / "jobs");
   EXPECT_EQ(run("worker --store sqlite:secret --artifacts " + out().string()), 2);
   EXPECT_NE(said().find("postgresql://"), std::string::npos) << said();
@@ -60,21 +42,21 @@ TEST_F(Command, AWorkerNeedsAPostgresqlStoreAndTheServersArtifacts) {
   EXPECT_NE(said().find("--store"), std::string::npos) << said();
 }
 
-TEST_F(Command, ARunawaySimulationEndsWithThreeAndKeepsItsFrames) {
+TEST_F(SceneCommand, ARunawaySimulationEndsWithThreeAndKeepsItsFrames) {
   EXPECT_EQ(run("run " + scene_file() + " --set /numerics/time_step=0.01 --out " + out().string()), 3)
       << said();
   EXPECT_EQ(render::decode_png(read(out() / "frames" / "00000.png")).width, 160);
   EXPECT_EQ(Json::parse(read(out() / "report.json")).at("state"), "failed");
 }
 
-TEST_F(Command, PlanPrintsNumbersForPeopleAndPrograms) {
+TEST_F(SceneCommand, PlanPrintsNumbersForPeopleAndPrograms) {
   ASSERT_EQ(run("plan " + scene_file() + " --json"), 0);
   EXPECT_GT(Json::parse(said()).at("points"), 0);
   ASSERT_EQ(run("plan " + scene_file()), 0);
   EXPECT_NE(said().find("points"), std::string::npos);
 }
 
-TEST_F(Command, SubmitDownloadsWhatTheServerMade) {
+TEST_F(SceneCommand, SubmitDownloadsWhatTheServerMade) {
   start();
   const std::string server = " --server http://127.0.0.1:" + std::to_string(port());
   ASSERT_EQ(run("submit " + scene_file() + server + " --out " + out().string()), 0) << said();

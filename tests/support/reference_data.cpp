@@ -36,6 +36,11 @@ std::vector<SimpleShearRun> simple_shear_runs() {
   return runs;
 }
 
+HerschelBulkleyParameters SimpleShearRun::law() const {
+  // Density and bulk modulus do not enter; those of shaving cream.
+  return {77.7, 109e3, mu, sigma_y, eta, h};
+}
+
 double SimpleShearRun::largest_s() const {
   return *std::max_element(s.begin(), s.end());
 }

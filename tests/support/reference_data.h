@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/material/herschel_bulkley_parameters.h"
+
 /// Reference solutions in tests/data, integrated or solved to 25 digits by an independent program.
 namespace lather::testing_support {
 
@@ -18,6 +20,7 @@ struct SimpleShearRun {
   double mu, sigma_y, eta, h, shear_rate;
   std::vector<double> t, tau_xy, n1, s;
 
+  [[nodiscard]] HerschelBulkleyParameters law() const;
   [[nodiscard]] double largest_s() const;
   [[nodiscard]] std::string name() const;
 };

@@ -1,0 +1,27 @@
+#include "sim/study/verify/blend_viscosity.h"
+#include "sim/study/verify/couette.h"
+#include "sim/study/verify/film.h"
+#include "sim/study/verify/incline.h"
+#include "sim/study/verify/law.h"
+#include "sim/study/verify/resting_block.h"
+#include "sim/study/verify/standing_wave.h"
+
+namespace lather::study {
+
+const std::vector<VerificationCase>& verification_cases() {
+  static const std::vector<VerificationCase> cases = {
+      {"law", "The law at single points is what its equations say", true, verify_law},
+      {"couette", "Start-up of shear in the Maxwell limit follows its exact transient", true, verify_couette},
+      {"standing-wave", "An elastic wave keeps its frequency and, with FLIP, its amplitude", true,
+       verify_standing_wave},
+      {"blend-viscosity", "The FLIP/PIC blend adds the viscosity that plans show, whatever the step", true,
+       verify_blend_viscosity},
+      {"film", "A Herschel-Bulkley film flows down a slope as it should, and stops below yield", true,
+       verify_film},
+      {"incline", "A block on an incline slides or sticks as Coulomb says", true, verify_incline},
+      {"resting-block", "A block below yield does not creep in single precision", true, verify_resting_block},
+      {"film-fine", "The film's profile converges at finer spacings", false, verify_fine_film}};
+  return cases;
+}
+
+}  // namespace lather::study
