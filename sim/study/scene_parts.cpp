@@ -32,14 +32,13 @@ void set_frames(Scene& scene, double time, int frames) {
   scene.frame_rate = frames / time;
 }
 
-void add_layers(Scene& scene, int axis, const std::function<Vec3(double)>& velocity) {
-  const Box3& box = scene.domain.box;
+void add_layers(Scene& scene, const Box3& region, int axis, const std::function<Vec3(double)>& velocity) {
   const double thickness = point_distance(scene);
-  const auto layers = static_cast<int>(std::lround(box.extent()[axis] / thickness));
+  const auto layers = static_cast<int>(std::lround(region.extent()[axis] / thickness));
   for (int i = 0; i < layers; ++i) {
-    Vec3 center = box.center();
-    center[axis] = box.min[axis] + (i + 0.5) * thickness;
-    Vec3 size = Vec3::Constant(4 * box.extent().maxCoeff());
+    Vec3 center = region.center();
+    center[axis] = region.min[axis] + (i + 0.5) * thickness;
+    Vec3 size = Vec3::Constant(4 * region.extent().maxCoeff());
     size[axis] = thickness;
     scene.bodies.push_back(body_of(scene, box_at(center, size), velocity(center[axis])));
   }

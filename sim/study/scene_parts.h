@@ -21,9 +21,10 @@ namespace lather::study {
 /// Sets duration and frame rate for `frames` equal intervals in `time` (s).
 void set_frames(Scene& scene, double time, int frames);
 
-/// Fills the domain with bodies one point thick across `axis`, each with the velocity that `velocity` gives
-/// for its coordinate (m) along that axis: initial velocities that a body's own fields cannot say.
-void add_layers(Scene& scene, int axis, const std::function<Vec3(double)>& velocity);
+/// Fills `region`, along `axis` a whole number of point distances from the domain's lower corner, with bodies
+/// one point thick across `axis`, each with the velocity that `velocity` gives for its coordinate (m) along
+/// that axis: initial velocities that a body's own fields cannot say.
+void add_layers(Scene& scene, const Box3& region, int axis, const std::function<Vec3(double)>& velocity);
 
 /// Steps on to frame `index`.
 void run_to(Simulation& simulation, int index);

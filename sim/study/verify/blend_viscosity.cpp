@@ -34,7 +34,8 @@ Scene shear_wave(int cells, double step, double reference_step) {
   scene.spacing = h;
   scene.points_per_cell = 4;
   scene.materials.push_back(material_of(kInviscid));
-  add_layers(scene, 1, [](double y) { return Vec3(1e-3 * std::sin(2 * std::numbers::pi * y), 0, 0); });
+  add_layers(scene, scene.domain.box, 1,
+             [](double y) { return Vec3(1e-3 * std::sin(2 * std::numbers::pi * y), 0, 0); });
   scene.numerics.flip_blend = kAlpha;
   scene.numerics.flip_blend_reference_step = reference_step;
   scene.numerics.time_step = step;

@@ -4,6 +4,7 @@
 #include "sim/study/verify/incline.h"
 #include "sim/study/verify/law.h"
 #include "sim/study/verify/resting_block.h"
+#include "sim/study/verify/slump.h"
 #include "sim/study/verify/standing_wave.h"
 
 namespace lather::study {
@@ -20,7 +21,8 @@ const std::vector<VerificationCase>& verification_cases() {
        verify_film},
       {"incline", "A block on an incline slides or sticks as Coulomb says", true, verify_incline},
       {"resting-block", "A block below yield does not creep in single precision", true, verify_resting_block},
-      {"film-fine", "The film's profile converges at finer spacings", false, verify_fine_film}};
+      {"film-fine", "The film's profile converges at finer spacings", false, verify_fine_film},
+      {"slump", "A cylinder slumps to where its weight no longer makes it yield", false, verify_slump}};
   return cases;
 }
 

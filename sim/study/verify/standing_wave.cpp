@@ -47,7 +47,8 @@ Scene wave_scene(int cells, Transfer transfer) {
   scene.materials.push_back(material_of(law));
   // A strain of 1e-6: larger waves steepen. Over four periods a strain of 1e-3 already loses 0.3 % a period
   // to its overtones.
-  add_layers(scene, 0, [&](double x) { return Vec3(1e-6 * c * std::sin(wave_number * x), 0, 0); });
+  add_layers(scene, scene.domain.box, 0,
+             [&](double x) { return Vec3(1e-6 * c * std::sin(wave_number * x), 0, 0); });
   scene.numerics.transfer = transfer;
   scene.numerics.flip_blend = 1;
   scene.numerics.precision = Precision::kDouble;
