@@ -23,7 +23,8 @@ template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
   const HerschelBulkleyParameters& law = material.herschel_bulkley;
   const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
-  return {static_cast<Real>(law.density * volume), static_cast<Real>(volume),
+  return {static_cast<Real>(law.density * volume),
+          static_cast<Real>(volume),
           herschel_bulkley_constants<Real>(law),
           {static_cast<Real>(material.tearing.tear_threshold)}};
 }
