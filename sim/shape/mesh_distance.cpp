@@ -15,6 +15,7 @@ namespace {
 class InGrid {
  public:
   InGrid(const MeshData& mesh, const DistanceGrid& grid) : mesh_(mesh), grid_(grid) {}
+  // NOLINTBEGIN(readability-identifier-naming): OpenVDB's names
   [[nodiscard]] std::size_t polygonCount() const { return mesh_.triangles.size(); }
   [[nodiscard]] std::size_t pointCount() const { return mesh_.positions.size(); }
   [[nodiscard]] static std::size_t vertexCount(std::size_t /*polygon*/) { return 3; }
@@ -23,6 +24,7 @@ class InGrid {
     for (int a = 0; a < 3; ++a)
       out[a] = (static_cast<double>(p[static_cast<std::size_t>(a)]) - grid_.origin[a]) / grid_.cell;
   }
+  // NOLINTEND(readability-identifier-naming)
 
  private:
   const MeshData& mesh_;

@@ -14,8 +14,8 @@ namespace lather {
 struct MeshData {
   std::vector<std::array<float, 3>> positions;          ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `positions`
-  std::vector<std::uint32_t> face;  ///< one a triangle: its place in the file, counted from 1 …
-  std::string face_word = "face";   ///< … in these: "line" or "face"
+  std::vector<std::uint32_t> face;  ///< one a triangle: where it stands in the file, from 1
+  std::string face_word = "face";   ///< what `face` counts: "line" or "face"
 };
 
 /// A mesh that cannot be used. what() says what is wrong, where in the file, and what to do.

@@ -22,9 +22,8 @@ namespace {
 // Lengths below are in voxels of half the points' distance.
 constexpr double kVoxelsPerDistance = 2;
 constexpr float kRadius = 2.5F;  ///< of the spheres in the union: 1.25 distances
-constexpr float kInner =
-    0.9F;  ///< of the spheres that stay inside: wherever its centre, one holds a node of the grid
-constexpr float kOuter = 2.0F;  ///< of the spheres outside which nothing is: one distance
+constexpr float kInner = 0.9F;   ///< of the spheres that stay inside: each holds a node of the grid
+constexpr float kOuter = 2.0F;   ///< of the spheres outside which nothing is: one distance
 /// From the smoothed union to the surface. Over a square lattice the spheres' mean height is
 /// R - E[rho^2]/(2 R) - E[rho^4]/(8 R^3) = 1.181 distances, where the material ends at half a distance.
 constexpr float kInset = 2 * (1.181F - 0.5F);
@@ -39,6 +38,7 @@ class Spheres {
   Spheres(const std::vector<std::array<float, 3>>& positions, const Vec3& origin, double voxel)
       : positions_(positions), origin_(origin), voxel_(voxel) {}
   [[nodiscard]] std::size_t size() const { return positions_.size(); }
+  // NOLINTNEXTLINE(readability-identifier-naming): OpenVDB's name
   void getPos(std::size_t n, PosType& out) const {
     for (int a = 0; a < 3; ++a)
       out[a] = (static_cast<double>(positions_[n][static_cast<std::size_t>(a)]) - origin_[a]) / voxel_;
@@ -94,8 +94,7 @@ Grid::Ptr sphere_union(const std::vector<std::array<float, 3>>& positions, const
   return grid;
 }
 
-/// Distance from the surface of the union of spheres: inside it, that from the nearest point says little of
-/// it.
+/// Distance from the surface of the union. The distance from the nearest point is another one inside.
 Grid::Ptr distance_from_surface(const Grid& spheres) {
   auto surface = openvdb::tools::sdfToSdf(spheres);
   openvdb::tree::LeafManager<Grid::TreeType> leaves(surface->tree());
@@ -112,8 +111,8 @@ Grid::Ptr distance_from_surface(const Grid& spheres) {
 
 /// What is certainly inside stays inside, what is certainly outside stays outside.
 void clamp_between_spheres(Grid& surface, const Grid& spheres) {
-  const float inner =
-      kInset - (kRadius - kInner);  // offsets from `spheres` to bounds of the field before the inset
+  // From `spheres` to the bounds of a field whose surface is still to be moved inward.
+  const float inner = kInset - (kRadius - kInner);
   const float outer = kInset - (kRadius - kOuter);
   openvdb::tree::LeafManager<Grid::TreeType> leaves(surface.tree());
   leaves.foreach ([&](Grid::TreeType::LeafNodeType& leaf, std::size_t) {
@@ -186,8 +185,7 @@ TriangleMesh skin_of(const std::vector<std::array<float, 3>>& positions, double 
   const Grid::Ptr spheres = sphere_union(positions, origin, voxel);
   const Grid::Ptr surface = distance_from_surface(*spheres);
   openvdb::tools::LevelSetFilter<Grid> filter(*surface);
-  filter.setSpatialScheme(
-      openvdb::math::FIRST_BIAS);  // of keeping it a distance; WENO takes five times as long
+  filter.setSpatialScheme(openvdb::math::FIRST_BIAS);  // WENO, the default, takes five times as long
   filter.gaussian(1);
   clamp_between_spheres(*surface, *spheres);
   return mesh_of(*surface, origin, voxel);
