@@ -15,6 +15,7 @@ constexpr int kRunnerFd = 3;
 
 struct AllOptions {
   RunOptions run;
+  RenderOptions render;
   PlanOptions plan;
   ServeOptions serve;
   AgentOptions worker;
@@ -40,12 +41,33 @@ void add_run(CLI::App& program, AllOptions& all) {
   CLI::App& command =
       *program.add_subcommand("run", "Simulate a scene and draw its frames, without a server");
   add_scene(command, all.run.scene);
-  command.add_option("--out", all.run.out, "directory for frames/, report.json and plan.json")->required();
+  command
+      .add_option("--out", all.run.out,
+                  "directory for frames/, report.json, plan.json and the files that the scene asks for")
+      ->required();
   command.add_option("--threads", all.run.threads, "threads of a step; 0: all cores")
       ->check(CLI::Range(0, 1024));
   add_backend(command, all.run.render_backend);
   command.add_flag("--json", all.run.json, "events as JSON lines on stdout");
   command.callback([&all] { all.exit_code = run_command(all.run); });
+}
+
+void add_render(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "render", "Draw the particles that a run kept again, with another camera or look");
+  RenderOptions& render = all.render;
+  command.add_option("DIR", render.kept, "what 'lather run' made: plan.json and particles/")->required();
+  command.add_option("--look", render.look, "file of a look (JSON), in place of the scene's");
+  command
+      .add_option("--set", render.set,
+                  "change a field: /look/...=value or /output/...=value; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--frames", render.frames, "one frame, or FIRST:LAST; all without it");
+  command.add_option("--out", render.out, "directory for frames/ and report.json")->required();
+  command.add_option("--threads", render.threads, "0: all cores")->check(CLI::Range(0, 1024));
+  add_backend(command, render.render_backend);
+  command.add_flag("--json", render.json, "events as JSON lines on stdout");
+  command.callback([&all] { all.exit_code = render_command(all.render); });
 }
 
 void add_plan(CLI::App& program, AllOptions& all) {
@@ -191,6 +213,7 @@ int parse_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   AllOptions all;
   add_run(program, all);
+  add_render(program, all);
   add_plan(program, all);
   add_serve(program, all);
   add_worker(program, all);

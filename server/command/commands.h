@@ -31,6 +31,18 @@ struct RunOptions {
 };
 int run_command(const RunOptions& options);
 
+struct RenderOptions {
+  std::filesystem::path kept;  ///< what `lather run` made: plan.json and particles/NNNNN.ply
+  std::filesystem::path look;  ///< file of a look (JSON), "" for the run's
+  std::vector<std::string> set;
+  std::string frames;  ///< "N" or "FIRST:LAST"; "": all
+  std::filesystem::path out;
+  int threads = 0;
+  std::string render_backend = "auto";
+  bool json = false;
+};
+int render_command(const RenderOptions& options);
+
 struct PlanOptions {
   SceneSource scene;
   bool json = false;

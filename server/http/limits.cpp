@@ -87,6 +87,13 @@ void check_before_planning(const Scene& scene, const JobLimits& limits) {
   throw excesses.error().with("plan", write_json(Object{{"points_at_most", points}, {"frames", frames}}));
 }
 
+void check_pictures(const Output& output, const JobLimits& limits) {
+  Excesses excesses;
+  excesses.check("/output", "pixels a frame", static_cast<double>(output.width) * output.height,
+                 static_cast<double>(limits.pixels), "choose a smaller width and height");
+  if (excesses.any()) throw excesses.error();
+}
+
 void check_plan(const Plan& plan, const JobLimits& limits) {
   const double points = static_cast<double>(plan.points);
   const Output& output = plan.scene.output;

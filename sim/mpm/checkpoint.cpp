@@ -58,6 +58,7 @@ void for_figures(Measure& m, const Visit& visit) {
   visit(m.max_speed), visit(m.min_volume_ratio), visit(m.max_volume_ratio), visit(m.interior_nodes);
   visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged), visit(m.resampling_momentum);
   visit(m.density_mean), visit(m.density_min), visit(m.density_max), visit(m.density_within_5_percent);
+  visit(m.skin_volume);
 }
 
 template <class AnyReport, class Visit>

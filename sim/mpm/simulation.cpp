@@ -14,6 +14,7 @@
 #include "sim/plan/seed.h"
 #include "sim/plan/step_bound.h"
 #include "sim/report/measure.h"
+#include "sim/surface/skin.h"
 
 namespace lather::mpm {
 namespace {
@@ -61,7 +62,11 @@ class MpmSimulation final : public Simulation {
     return true;
   }
 
-  [[nodiscard]] Frame frame() const override { return snapshot_.take(state_, plan_, measured_frame_); }
+  [[nodiscard]] Frame frame() const override {
+    Frame frame = snapshot_.take(state_, plan_, measured_frame_);
+    if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
+    return frame;
+  }
   [[nodiscard]] const Report& report() const override { return report_; }
   void visit_points(const std::function<void(const PointState&)>& visit) const override {
     visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
@@ -73,6 +78,7 @@ class MpmSimulation final : public Simulation {
   void restore(const std::string& bytes) override {
     read_checkpoint(bytes, checkpoint_key(), state_, report_, measured_frame_);
     stepper_.forget_grid();
+    skins_.clear();
   }
 
  private:
@@ -161,6 +167,7 @@ class MpmSimulation final : public Simulation {
     m.points_inserted = state_.resampled.inserted;
     m.points_merged = state_.resampled.merged;
     m.resampling_momentum = state_.resampled.momentum_change;
+    if (plan_.scene.wants_skin()) measure_skin(index, m);
     report_.frames.push_back(m);
     measured_frame_ = index;
     report_.simulated_time = state_.time;
@@ -173,6 +180,12 @@ class MpmSimulation final : public Simulation {
           report_.stages.push_back({name, stepper_.clock().seconds(static_cast<Stage>(s))});
   }
 
+  void measure_skin(int index, FrameMeasure& m) {
+    skins_ = skins_of(snapshot_.take(state_, plan_, index), threads_);
+    m.skin_volume = 0;
+    for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
+  }
+
   Plan plan_;
   int threads_;
   Model<Real> model_;
@@ -180,6 +193,7 @@ class MpmSimulation final : public Simulation {
   Stepper<Real> stepper_;
   Snapshot snapshot_;
   Report report_;
+  std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
   int measured_frame_ = -1;
   double last_step_ = 0;
 };

@@ -61,10 +61,13 @@ std::uint64_t expected_memory(const Plan& plan) {
   for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
   const double voids = std::min(cells, kMostSearchedCells);
   const double frame = 3.0 * points * (29 + 4 * static_cast<double>(plan.scalars.size()));
+  // The skin's grid and mesh by its area, at the most that of loose points; files are made one at a time.
+  const double skin = s.wants_skin() ? 600.0 * points : 0;
+  const double files = s.output.particles.empty() ? 0 : 200.0 * points;
   const double samples =
       static_cast<double>(s.output.width) * s.output.height * s.output.supersampling * s.output.supersampling;
-  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + resampling + voids +
-                                    samples * 60 + 128e6);
+  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + resampling + voids + skin +
+                                    files + samples * 60 + 128e6);
 }
 
 void warn(Plan& plan) {
@@ -94,11 +97,21 @@ void warn(Plan& plan) {
 
 }  // namespace
 
+std::vector<std::string> planned_scalars(const Scene& scene) {
+  std::vector<std::string> scalars;
+  if (scene.look.color_by != "material") scalars.push_back(scene.look.color_by);
+  for (const std::string& name : scene.output.scalars)
+    if (name != scene.look.color_by) scalars.push_back(name);
+  return scalars;
+}
+
 std::vector<Field> planned_fields(const Scene& scene) {
   std::vector<Field> fields = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
                                Field::kElasticStrain, Field::kId,       Field::kCell};
   if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
-  if (scene.look.color_by == "plastic_strain") fields.push_back(Field::kPlasticStrain);
+  const std::vector<std::string> scalars = planned_scalars(scene);
+  if (std::find(scalars.begin(), scalars.end(), "plastic_strain") != scalars.end())
+    fields.push_back(Field::kPlasticStrain);
   if (scene.numerics.resampling) fields.push_back(Field::kShare);
   return fields;
 }
@@ -117,7 +130,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   const double per_frame = steps_for(frame_span, planned_step(scene));
   plan.time_step = frame_span / per_frame;
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
-  if (scene.look.color_by != "material") plan.scalars.push_back(scene.look.color_by);
+  plan.scalars = planned_scalars(scene);
 
   const std::vector<Field> fields = planned_fields(scene);
   const TileLayout layout = layout_of(scene, fields);

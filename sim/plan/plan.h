@@ -57,9 +57,16 @@ struct Plan {
 /// Throws InputError when the scene cannot be planned (a body without points, a level the machine lacks, …).
 [[nodiscard]] Plan make_plan(const Scene& scene, const Choices& choices = {});
 
-/// Scene, choices and all derived numbers. read_plan() takes scene and choices from it and derives the rest
-/// anew.
+/// Scene, the bytes of its meshes (base64), choices and all derived numbers. read_plan() takes scene, meshes
+/// and choices from it and derives the rest anew.
 [[nodiscard]] std::string to_json(const Plan& plan);
 [[nodiscard]] Plan read_plan(std::string_view json);
+
+/// The scene of a plan, changed by overrides (pointers into the scene). Needs no kernels, so any machine can
+/// draw what another one simulated.
+[[nodiscard]] Scene read_plan_scene(std::string_view json, const std::vector<Override>& overrides = {});
+
+/// The plan's JSON with that changed scene in place of its own; its numbers stay those of the run.
+[[nodiscard]] std::string with_changed_scene(std::string_view json, const std::vector<Override>& overrides);
 
 }  // namespace lather

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct FrameMeasure {
   double density_min = 0;
   double density_max = 0;
   double density_within_5_percent = 0;  ///< fraction of interior nodes
+  std::optional<double>
+      skin_volume;  ///< enclosed by the skins of all materials, m^3; where they are asked for
 };
 
 /// What happened: measured, never planned.

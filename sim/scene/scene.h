@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,6 +68,8 @@ struct Resampling {
   NewVelocity velocity = NewVelocity::kConserving;
 };
 
+struct MeshFile;
+
 struct Numerics {
   Kernel kernel = Kernel::kCubic;
   Transfer transfer = Transfer::kFlip;
@@ -96,6 +100,10 @@ struct Scene {
   Numerics numerics;
   Look look;
   Output output;
+  std::vector<std::shared_ptr<const MeshFile>> meshes;  ///< that the shapes name, as they were read
+
+  /// Does anything in it ask for the surface of the points?
+  [[nodiscard]] bool wants_skin() const;
 
   /// Frames 0 … last; frame 0 is t = 0.
   [[nodiscard]] int last_frame() const;
@@ -107,13 +115,18 @@ struct Override {
   std::string json;  ///< the value as JSON text; text that is no JSON is taken as a string
 };
 
+/// Gives the bytes of a mesh by the name that a scene has for it, or throws MeshError with the reason why
+/// not.
+using MeshSource = std::function<std::string(const std::string& file)>;
+
 /// Reads a scene. `size` names one of its "sizes" ("" for none). Sizes are merged first, then overrides.
-/// Throws InputError with all problems found, each with its pointer.
+/// Without `meshes` a scene that names a mesh is refused. Throws InputError with all problems found, each
+/// with its pointer.
 [[nodiscard]] Scene parse_scene(std::string_view json, std::string_view size = {},
-                                const std::vector<Override>& overrides = {});
+                                const std::vector<Override>& overrides = {}, const MeshSource& meshes = {});
 
 /// The scene with every field written out, canonical: parse_scene(to_json(s)) gives s, and equal scenes give
-/// equal text.
+/// equal text. A mesh stands in it by name and SHA-256.
 [[nodiscard]] std::string to_json(const Scene& scene);
 
 /// SHA-256 of to_json(scene), 64 hex digits.

@@ -126,6 +126,18 @@ void check_plane(const Value& document, const Scene& scene, const Place& root) {
   }
 }
 
+/// A surface needs space around it.
+void check_skin(const Value& document, const Scene& scene, const Place& root) {
+  if (scene.dimension == 3 || !scene.wants_skin()) return;
+  const bool drawn = scene.look.style == "skin";
+  const Value* const part = document.find(drawn ? "look" : "output");
+  const char* const key = drawn ? "style" : "skin";
+  root.at(drawn ? "look" : "output")
+      .at(key)
+      .refuse(part != nullptr ? part->find(key) : nullptr, drawn ? "\"points\" in 2D" : "no format in 2D",
+              "The points of a 2D scene lie in a plane and have no skin.");
+}
+
 }  // namespace
 
 void check_names(const Value& document, const Scene& scene, const Place& root) {
@@ -140,6 +152,7 @@ void check_whole(const Value& document, Scene& scene, const Place& root) {
   if (check_cells(document, scene, root)) check_periods(scene, root);
   check_frames(document, scene, root);
   if (scene.dimension == 2) check_plane(document, scene, root);
+  check_skin(document, scene, root);
   const std::size_t colors = scene.look.material_colors.size();
   if (colors == 0 || colors >= scene.materials.size()) return;
   root.at("look")

@@ -117,7 +117,8 @@ const Table<Scene>& scene() {
        optional<Scene>("numerics", &Scene::numerics, object_of(numerics()), "how it is computed",
                        "see numerics"),
        optional<Scene>("look", &Scene::look, object_of(look()), "what pictures show", "see look"),
-       optional<Scene>("output", &Scene::output, object_of(output()), "the pictures' size", "see output")});
+       optional<Scene>("output", &Scene::output, object_of(output()), "pictures and files of every frame",
+                       "see output")});
   return table;
 }
 

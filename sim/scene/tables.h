@@ -25,6 +25,7 @@ inline constexpr double kForever = 1e30;
 [[nodiscard]] const descriptor::Table<Look>& look();
 [[nodiscard]] const descriptor::Table<Look::Camera>& camera();
 [[nodiscard]] const descriptor::Table<Output>& output();
+[[nodiscard]] descriptor::Table<MeshShape> mesh_table();
 [[nodiscard]] const descriptor::Tagged<decltype(Shape::kind)>& shapes();
 [[nodiscard]] const descriptor::Tagged<Motion>& motions();
 

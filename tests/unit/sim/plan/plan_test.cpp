@@ -38,6 +38,14 @@ TEST(Plan, FieldsFollowTheSceneAndNothingElse) {
   EXPECT_LT(plan_of({{"/dimension", "2"}}).materials.at(0).bytes_per_point, 64);
 }
 
+TEST(Plan, ScalarsOfFilesComeWithTheirFields) {
+  const Plan p =
+      plan_of({{"/look/color_by", "speed"}, {"/output/scalars", "[\"plastic_strain\", \"speed\"]"}});
+  EXPECT_EQ(p.scalars, (std::vector<std::string>{"speed", "plastic_strain"}));
+  EXPECT_TRUE(has_field(p, "plastic strain"));
+  EXPECT_TRUE(plan_of({}).scalars.empty());
+}
+
 TEST(Plan, ASceneWithoutContactHasNoCollisionStages) {
   const Plan free_space = plan_of({});
   EXPECT_FALSE(has_stage(free_space, "grid collisions"));

@@ -41,8 +41,9 @@ std::string full_scene() {
     "look": {"camera": {"eye": [1, 2, 3], "target": [0, 0.5, 0], "field_of_view_deg": 40}, "color_by": "J",
              "color_range": [0.9, 1.1], "color_map": "inferno",
              "material_colors": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "background": [0.1, 0.2, 0.3], "floor": false,
-             "legend": false, "shadows": false, "point_scale": 1.2},
-    "output": {"width": 640, "height": 360, "supersampling": 3}})";
+             "legend": false, "shadows": false, "point_scale": 1.2, "style": "points"},
+    "output": {"width": 640, "height": 360, "supersampling": 3, "particles": ["vdb", "ply"],
+               "skin": ["obj"], "scalars": ["speed"]}})";
 }
 
 /// Every key and value of `given` stands in `written`, or `written` holds more.

@@ -35,6 +35,34 @@ TEST_P(SceneError, HasItsPointerTheValueAndWhatIsAllowed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
+    Outputs, SceneError,
+    testing::Values(Wrong{"/look/style", "\"fur\"", "/look/style", "\"points\" or \"skin\""},
+                    Wrong{"/look", R"({"style": "skin", "color_by": "J"})", "/look/color_by",
+                          "coloured by its material"},
+                    Wrong{"/output/particles", R"(["obj"])", "/output/particles/0", "\"ply\" or \"vdb\""},
+                    Wrong{"/output/skin", R"(["ply", "ply"])", "/output/skin/1", "named twice"},
+                    Wrong{"/bodies/0/shape", R"({"type": "mesh"})", "/bodies/0/shape/file", "missing"},
+                    Wrong{"/bodies/0/shape", R"({"type": "mesh", "file": "a.obj", "resolution": 8})",
+                          "/bodies/0/shape/resolution", "from 16 to 256"}));
+
+TEST(SceneErrors, ASkinInTwoDimensionsIsRefusedWhereItIsAskedFor) {
+  const auto flat = [](const std::string& pointer, const std::string& json) {
+    Value scene =
+        parse_json(R"({"lather": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [1, 1]}, "duration": 1,
+      "spacing": 0.05, "materials": [{"name": "foam", "preset": "shaving-cream"}],
+      "bodies": [{"name": "ball", "material": "foam", "shape": {"type": "sphere", "radius": 0.2}}]})");
+    set_at_pointer(scene, pointer, parse_json(json));
+    return problems_of(write_json(scene));
+  };
+  for (const auto& [pointer, json] : {std::pair{"/look/style", "\"skin\""}, {"/output/skin", "[\"obj\"]"}}) {
+    const std::vector<Problem> problems = flat(pointer, json);
+    ASSERT_EQ(problems.size(), 1U) << pointer;
+    EXPECT_EQ(problems[0].pointer, pointer);
+    EXPECT_NE(problems[0].message.find("have no skin"), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
     Numbers, SceneError,
     testing::Values(
         Wrong{"/spacing", "0", "/spacing", "from 1e-06 to 1000 m"},
