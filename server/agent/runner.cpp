@@ -63,8 +63,8 @@ void heed_agent(LineSocket& down, std::atomic<bool>& stop) {
 RunnerResult run_order(const RunnerOrder& order, RunEvents& events, const std::atomic<bool>& stop) {
   try {
     const std::filesystem::path directory = order.directory;
-    const RunSettings settings = {directory / kFramesPath, directory / kReportName, order.threads,
-                                  order.render_backend};
+    const RunSettings settings = {directory / kFramesPath, directory / kReportName, directory / kProbesName,
+                                  order.threads, order.render_backend};
     const Report report = run(read_plan(order.plan), settings, events, stop);
     return {report.state, report.error};
   } catch (const std::bad_alloc&) {

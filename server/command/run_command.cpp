@@ -75,6 +75,8 @@ int conclude(const Report& report, const RunOptions& options) {
   if (!options.json)
     std::printf("%zu frames in %s\nreport in %s\n", report.frames.size(), (options.out / "frames").c_str(),
                 (options.out / "report.json").c_str());
+  if (!options.json && !report.probes.empty())
+    std::printf("probes in %s\n", (options.out / "probes.csv").c_str());
   return 0;
 }
 
@@ -85,8 +87,8 @@ int run_command(const RunOptions& options) {
   heed_interrupts();
   std::filesystem::create_directories(options.out);
   write_whole(options.out / "plan.json", to_json(plan));
-  const RunSettings settings = {options.out / "frames", options.out / "report.json", options.threads,
-                                options.render_backend};
+  const RunSettings settings = {options.out / "frames", options.out / "report.json",
+                                options.out / "probes.csv", options.threads, options.render_backend};
   return conclude(run_with_events(plan, settings, options.json), options);
 }
 

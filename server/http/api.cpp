@@ -54,6 +54,8 @@ void Api::add_artifact_routes() {
       [this](const HttpRequest& request, const Captures& at) { return get_frame(request, at[0], at[1]); });
   add("/jobs/{}/frames.zip", [this](const HttpRequest&, const Captures& at) { return get_zip(at[0]); });
   add("/jobs/{}/report", [this](const HttpRequest&, const Captures& at) { return get_report(at[0]); });
+  add("/jobs/{}/probes.csv",
+      [this](const HttpRequest& request, const Captures& at) { return get_probes(request, at[0]); });
   add("/jobs/{}/plan", [this](const HttpRequest&, const Captures& at) { return get_plan(at[0]); });
   add("/jobs/{}/log", [this](const HttpRequest&, const Captures& at) { return get_log(at[0]); });
 }

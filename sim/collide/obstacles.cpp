@@ -28,40 +28,47 @@ void Obstacles::find_near(const Vec3& center, double radius, std::vector<std::ui
     if (distance(*all_[i].source->shape, to_local(all_[i], center)) < radius) near.push_back(i);
 }
 
-bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const {
+bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
+                        const ContactSink& sink) const {
   bool changed = false;
   for (const std::uint32_t i : near) {
-    const Placed& o = all_[i];
-    const Vec3 local = to_local(o, x);
-    if (distance(*o.source->shape, local) >= 0) continue;
-    const Vec3 v_obstacle = o.velocity_at_origin + o.velocity_gradient * x;
-    if (o.source->adhesive) {
-      velocity = v_obstacle;
-      changed = true;
-      continue;
-    }
-    Vec3 n = o.pose.rotation * normal(*o.source->shape, local, normal_step_);
-    if (flat_) {
-      n.z() = 0;
-      const double length = n.norm();
-      if (length == 0) continue;
-      n /= length;
-    }
-    const Vec3 v_rel = velocity - v_obstacle;
-    const double v_n = v_rel.dot(n);
-    if (v_n >= 0) continue;
-    const Vec3 v_t = v_rel - n * v_n;
-    const double slip = v_t.norm();
-    const double stop = -o.source->friction * v_n;
-    velocity = slip <= stop ? v_obstacle : Vec3(v_obstacle + v_t * (1 - stop / slip));
+    const Vec3 before = velocity;
+    if (!touch(all_[i], x, velocity)) continue;
     changed = true;
+    sink.take(i, x, before - velocity, mass);
   }
   return changed;
+}
+
+bool Obstacles::touch(const Placed& o, const Vec3& x, Vec3& velocity) const {
+  const Vec3 local = to_local(o, x);
+  if (distance(*o.source->shape, local) >= 0) return false;
+  const Vec3 v_obstacle = o.velocity_at_origin + o.velocity_gradient * x;
+  if (o.source->adhesive) {
+    velocity = v_obstacle;
+    return true;
+  }
+  Vec3 n = o.pose.rotation * normal(*o.source->shape, local, normal_step_);
+  if (flat_) {
+    n.z() = 0;
+    const double length = n.norm();
+    if (length == 0) return false;
+    n /= length;
+  }
+  const Vec3 v_rel = velocity - v_obstacle;
+  const double v_n = v_rel.dot(n);
+  if (v_n >= 0) return false;
+  const Vec3 v_t = v_rel - n * v_n;
+  const double slip = v_t.norm();
+  const double stop = -o.source->friction * v_n;
+  velocity = slip <= stop ? v_obstacle : Vec3(v_obstacle + v_t * (1 - stop / slip));
+  return true;
 }
 
 Walls::Walls(const Scene& scene)
     : box_(scene.domain.box),
       dimension_(scene.dimension),
+      index_(scene.obstacles.size()),
       stick_(scene.domain.boundary == Boundary::kStick),
       tolerance_(1e-6 * scene.spacing) {
   for (int a = 0; a < dimension_; ++a) {
@@ -85,7 +92,14 @@ bool Walls::inside(const Vec3& x) const {
   return true;
 }
 
-bool Walls::resolve(const Vec3& x, Vec3& velocity) const {
+bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const {
+  const Vec3 before = velocity;
+  if (!touch(x, velocity)) return false;
+  sink.take(index_, x, before - velocity, mass);
+  return true;
+}
+
+bool Walls::touch(const Vec3& x, Vec3& velocity) const {
   bool changed = false;
   for (int a = 0; a < dimension_; ++a) {
     if (!closed_[static_cast<std::size_t>(a)]) continue;

@@ -32,6 +32,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   const bool contact = walls || !scene.obstacles.empty();
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
+    if (scene.emitters.empty() && stage == Stage::kEmit) continue;
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
     if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
@@ -121,11 +122,12 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
 
   const std::vector<Field> fields = planned_fields(scene);
   const TileLayout layout = layout_of(scene, fields);
-  const std::vector<std::uint64_t> points = count_points(scene);
+  const PointCounts points = count_points(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     PlannedMaterial m;
     m.name = scene.materials[i].name;
-    m.points = points[i];
+    m.points = points.at_start[i] + points.emitted[i];
+    m.points_emitted = points.emitted[i];
     for (const Field f : fields) {
       const int at = static_cast<int>(f);
       m.fields.push_back({to_string(f), layout.components[at] * layout.component_bytes[at]});
@@ -135,6 +137,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
     m.numerical_viscosity =
         blend_viscosity(scene, scene.materials[i].herschel_bulkley.density, plan.time_step);
     plan.points += m.points;
+    plan.points_emitted += m.points_emitted;
     plan.materials.push_back(std::move(m));
   }
   plan.stages = planned_stages(scene);

@@ -7,6 +7,7 @@
 namespace lather {
 
 enum class Stage : int {
+  kEmit,                ///< points of the releases that are due; only with emitters
   kSort,                ///< points by block, and the grid's blocks; only when points have drifted
   kRasterize,           ///< 1, 3: mass, momentum and internal forces to block buffers
   kReduce,              ///< block buffers to the grid
@@ -18,9 +19,10 @@ enum class Stage : int {
   kPositions,           ///< 14
   kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 10;
+inline constexpr int kStageCount = 11;
 
-inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
+inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
+                                                                     "sort",
                                                                      "rasterize",
                                                                      "reduce",
                                                                      "grid velocities",
