@@ -45,8 +45,9 @@ int render_command(const RenderOptions& options) {
   const std::vector<Override> changes = changes_of(options);
   const Scene scene = read_plan_scene(read_text(options.kept / "plan.json"), changes);
   std::filesystem::create_directories(out);
-  const RunSettings settings = {out / "frames", out / "report.json", options.threads, options.render_backend,
-                                asks_for_files(changes) ? out : std::filesystem::path()};
+  const RunSettings settings = {
+      out / "frames",  out / "report.json",    out / "probes.csv",
+      options.threads, options.render_backend, asks_for_files(changes) ? out : std::filesystem::path()};
   const std::atomic<bool>& interrupted = heed_interrupts();
   const Report report = with_events(options.json, [&](RunEvents& events) {
     return redraw(scene, options.kept / "particles", range, settings, events, interrupted);
