@@ -22,12 +22,14 @@ namespace {
 // Lengths below are in voxels of half the points' distance.
 constexpr double kVoxelsPerDistance = 2;
 constexpr float kRadius = 2.5F;  ///< of the spheres in the union: 1.25 distances
-constexpr float kInner = 0.9F;   ///< of the spheres that stay inside: each holds a node of the grid
+constexpr float kInner = 0.9F;   ///< of what is left of a stray point: it holds a node of the grid
 constexpr float kOuter = 2.0F;   ///< of the spheres outside which nothing is: one distance
 /// From the smoothed union to the surface. Over a square lattice the spheres' mean height is
 /// R - E[rho^2]/(2 R) - E[rho^4]/(8 R^3) = 1.181 distances, where the material ends at half a distance.
 constexpr float kInset = 2 * (1.181F - 0.5F);
-constexpr float kBand = 3;  ///< half width of the distances that are kept
+constexpr int kStrayReach = 3;  ///< half the side of the cube in which a stray point …
+constexpr int kStrayPoints = 4;  ///< … has at most so many, itself counted: a drop, a strand of single points
+constexpr float kBand = 3;       ///< half width of the distances that are kept
 
 using Grid = openvdb::FloatGrid;
 
@@ -67,25 +69,49 @@ void shrink(Mask& mask, int voxels) {
                                     openvdb::tools::IGNORE_TILES);
 }
 
-/// Distance from the nearest point less kRadius, where that decides on the surface, within kBand; most of the
-/// points of a body lie too deep in it to do so. The voxels within 2 of a point, less the outermost layer,
-/// make up the material: of these, the ones more than 3 from the rest are filled, and a sphere that covers
-/// any other voxel has its centre less than 6 from the rest, along each axis.
-Grid::Ptr sphere_union(const std::vector<std::array<float, 3>>& positions, const Vec3& origin, double voxel) {
+bool is_stray(const Mask& points, const openvdb::Coord& voxel) {
+  const openvdb::tree::ValueAccessor<const Mask> at(points);
+  int found = 0;
+  for (int i = -kStrayReach; i <= kStrayReach; ++i)
+    for (int j = -kStrayReach; j <= kStrayReach; ++j)
+      for (int k = -kStrayReach; k <= kStrayReach; ++k)
+        if (at.isValueOn(voxel.offsetBy(i, j, k)) && ++found > kStrayPoints) return false;
+  return true;
+}
+
+struct Points {
+  std::vector<std::array<float, 3>> near;   ///< that decide on the surface
+  std::vector<std::array<float, 3>> stray;  ///< of these, the ones that smoothing would take away
+  Mask filled;                              ///< voxels that are inside for certain
+};
+
+/// Most of the points of a body lie too deep in it to matter. The voxels within 2 of a point, less the
+/// outermost layer, make up the material: of these, the ones more than 3 from the rest are filled, and a
+/// sphere that covers any other voxel has its centre less than 6 from the rest, along each axis.
+Points sorted_out(const std::vector<std::array<float, 3>>& positions, const Vec3& origin, double voxel) {
   const Spheres all(positions, origin, voxel);
-  Mask deep;
-  for (std::size_t n = 0; n < all.size(); ++n) deep.setValueOn(voxel_of(all, n));
+  Mask points;
+  for (std::size_t n = 0; n < all.size(); ++n) points.setValueOn(voxel_of(all, n));
+  Mask deep = points;
   grow(deep, 2);
   shrink(deep, 1 + 3);
-  const Mask filled = deep;
+  Points out{{}, {}, deep};
   shrink(deep, 3);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const openvdb::Coord at = voxel_of(all, n);
+    if (deep.isValueOn(at)) continue;
+    out.near.push_back(positions[n]);
+    if (is_stray(points, at)) out.stray.push_back(positions[n]);
+  }
+  return out;
+}
 
-  std::vector<std::array<float, 3>> near;
-  for (std::size_t n = 0; n < all.size(); ++n)
-    if (!deep.isValueOn(voxel_of(all, n))) near.push_back(positions[n]);
+/// Distance from the nearest of the points less kRadius, within kBand; what is filled is inside.
+Grid::Ptr sphere_union(const std::vector<std::array<float, 3>>& points, const Mask& filled,
+                       const Vec3& origin, double voxel) {
   auto grid = openvdb::createLevelSet<Grid>(1.0, kBand);
   openvdb::tools::ParticlesToLevelSet<Grid> raster(*grid);
-  raster.rasterizeSpheres(Spheres(near, origin, voxel), kRadius);
+  raster.rasterizeSpheres(Spheres(points, origin, voxel), kRadius);
   for (auto leaf = filled.cbeginLeaf(); leaf; ++leaf) {
     auto& values = *grid->tree().touchLeaf(leaf->origin());
     for (auto at = leaf->cbeginValueOn(); at; ++at) values.setValueOff(at.pos(), -kBand);
@@ -109,17 +135,18 @@ Grid::Ptr distance_from_surface(const Grid& spheres) {
   return surface;
 }
 
-/// What is certainly inside stays inside, what is certainly outside stays outside.
-void clamp_between_spheres(Grid& surface, const Grid& spheres) {
-  // From `spheres` to the bounds of a field whose surface is still to be moved inward.
+/// Bounds of a field whose surface is still to be moved inward. No surface lies outside all spheres, and
+/// stray points keep a sphere of their own.
+void clamp_between_spheres(Grid& surface, const Grid& spheres, const Grid& stray) {
   const float inner = kInset - (kRadius - kInner);
   const float outer = kInset - (kRadius - kOuter);
   openvdb::tree::LeafManager<Grid::TreeType> leaves(surface.tree());
   leaves.foreach ([&](Grid::TreeType::LeafNodeType& leaf, std::size_t) {
-    const auto at = spheres.getConstAccessor();
+    const auto at = spheres.getConstAccessor(), at_stray = stray.getConstAccessor();
     for (auto voxel = leaf.beginValueOn(); voxel; ++voxel) {
-      const float distance = at.getValue(voxel.getCoord());
-      voxel.setValue(std::clamp(*voxel, distance - outer, distance - inner));
+      const openvdb::Coord place = voxel.getCoord();
+      voxel.setValue(
+          std::min(std::max(*voxel, at.getValue(place) - outer), at_stray.getValue(place) - inner));
     }
   });
 }
@@ -182,12 +209,14 @@ TriangleMesh skin_of(const std::vector<std::array<float, 3>>& positions, double 
                                 static_cast<std::size_t>(std::max(1, threads)));
   const double voxel = distance / kVoxelsPerDistance;
   const Vec3 origin = origin_of(positions, voxel);
-  const Grid::Ptr spheres = sphere_union(positions, origin, voxel);
+  const Points points = sorted_out(positions, origin, voxel);
+  const Grid::Ptr spheres = sphere_union(points.near, points.filled, origin, voxel);
+  const Grid::Ptr stray = sphere_union(points.stray, Mask(), origin, voxel);
   const Grid::Ptr surface = distance_from_surface(*spheres);
   openvdb::tools::LevelSetFilter<Grid> filter(*surface);
   filter.setSpatialScheme(openvdb::math::FIRST_BIAS);  // WENO, the default, takes five times as long
   filter.gaussian(1);
-  clamp_between_spheres(*surface, *spheres);
+  clamp_between_spheres(*surface, *spheres, *stray);
   return mesh_of(*surface, origin, voxel);
 }
 
