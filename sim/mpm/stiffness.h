@@ -9,6 +9,11 @@
 // with A = dt sum u_i grad w_i^T = D + W at each point (sim/material/elastic_tangent.h), rho = m_p / V_p, and
 // the weights a, b, c and the diffusion nu of mpm::StiffnessTerms. Rows of four nodes are one lane of 16, as
 // in scatter() and gather().
+//
+// Weak points [Foam section 7.2]: tau is the limited stress, as in the explicit force, and stays frozen over
+// the step but for turning. Where such a point is expanded (J >= 1) it also adds no stiffness b: a torn
+// place would else resist being opened further as a viscosity kappa dt does. A compressed one keeps it, or
+// pressure there would be explicit and bound the step.
 
 #include "sim/material/elastic_tangent.h"
 #include "sim/mpm/scatter.h"
@@ -97,19 +102,23 @@ void stiffness(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& plac
                const Real* velocity, Real* impulse) {
   const mpm::MaterialConstants<Real>& material = *points.material;
   for (int first = 0; first < points.count; first += kLanes) {
-    const Tile<Real, Dim> tile{
-        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     const HerschelBulkleyState<Lane<Real>> state = load_state(tile);
     const Lane<Real> per_derivative = load_share(tile) * Real(-step.dt * material.volume / step.cell);
-    const Sym3<Lane<Real>> tau = kirchhoff_stress(state, material.law);
+    Sym3<Lane<Real>> tau = kirchhoff_stress(state, material.law);
+    Lane<Real> weight(terms.material);
+    if (tile.has(Field::kPlasticity)) {
+      limit_stress(tile, material.tearing, tau);
+      const Lane<Real> zero(Real(0));
+      weight = select(weak_points(tile, material.tearing) & (state.volume_change >= zero), zero, weight);
+    }
     Sym3<Lane<Real>> even = scale(tau, Lane<Real>(terms.stress));  // the symmetric part of Sigma
     Mat3<Lane<Real>> A;
     const bool moves = terms.material != Real(0) || terms.geometric != Real(0) || terms.diffusion != Real(0);
     if (moves) {
       A = deformation_increment<Real, Dim, Cubic>(stencil, step, velocity);
       const Sym3<Lane<Real>> change = material_tangent(state, A, material.law);
-      const Lane<Real> weight(terms.material);
       even = {even.xx + change.xx * weight, even.yy + change.yy * weight, even.zz + change.zz * weight,
               even.xy + change.xy * weight, even.xz + change.xz * weight, even.yz + change.yz * weight};
     }

@@ -43,13 +43,13 @@ inline double spline_slope(bool cubic, double x) {
 /// Forty points of elastic foam in the block that begins at node (4, 4, 4), with random velocity, C and
 /// strain.
 struct Sample {
-  Sample(int dim, bool with_cubic, bool with_apic, KernelLevel level)
+  Sample(int dim, bool with_cubic, bool with_apic, KernelLevel level, bool tears = false)
       : dimension(dim),
         cubic(with_cubic),
         apic(with_apic),
         table(mpm::kernel_table<double>(level)),
         kernels(table.step[dim - 2][with_cubic ? 1 : 0][with_apic ? 1 : 0]),
-        set(dim, fields(with_apic), Vec3::Zero(), kCell) {
+        set(dim, fields(with_apic, tears), Vec3::Zero(), kCell) {
     material = {0.5, 0.002, {1000, 300, 1e300, 1, 1, 1, 2.2e-16}, {1e300}};
     std::mt19937 rng(static_cast<unsigned>(11 + dim));
     std::uniform_real_distribution<double> place(3.5, 7.5);
@@ -77,10 +77,11 @@ struct Sample {
     force.assign(reals, 0);
   }
 
-  static std::vector<Field> fields(bool apic) {
+  static std::vector<Field> fields(bool apic, bool tears) {
     std::vector<Field> f = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
                             Field::kElasticStrain, Field::kId,       Field::kCell};
     if (apic) f.push_back(Field::kAffine);
+    if (tears) f.push_back(Field::kPlasticity);
     return f;
   }
 

@@ -144,6 +144,41 @@ TEST_P(Stiffness, TakesNothingFromATranslation) {
   });
 }
 
+TEST_P(Stiffness, LimitsTheStressOfWeakPointsAsTheExplicitForceDoes) {
+  for (const int dimension : {2, 3}) {
+    Sample s(dimension, true, false, GetParam(), true);
+    s.material.tearing = {0.5};
+    s.for_points([&](std::size_t t, int lane) {
+      s.set.values<double>(t, Field::kPlasticity)[lane] = lane % 2;  // every other point is weak
+    });
+    const std::vector<double> still(static_cast<std::size_t>(mpm::buffer_reals(dimension)), 0);
+    s.kernels.scatter(s.points(), s.place(), s.step(), s.momentum.data(), s.force.data());
+    const std::vector<double> limited = impulse(s, {1, 0, 0, 0}, still);
+    for (std::size_t i = 0; i < limited.size(); ++i)
+      EXPECT_NEAR(limited[i], kStep * s.force[i], 1e-12 * largest(limited));
+    s.material.tearing = {1e300};
+    const std::vector<double> whole = impulse(s, {1, 0, 0, 0}, still);
+    EXPECT_GT(std::abs(largest(whole) - largest(limited)), 1e-3 * largest(whole));
+  }
+}
+
+TEST_P(Stiffness, AWeakPointResistsCompressionButNotOpening) {
+  for (const int dimension : {2, 3}) {
+    Sample s(dimension, true, false, GetParam(), true);
+    s.material.tearing = {0.5};
+    const std::vector<double> v = node_velocities(s, 8);
+    const auto stiffness_at = [&](double volume_change) {
+      s.for_points([&](std::size_t t, int lane) {
+        s.set.values<double>(t, Field::kPlasticity)[lane] = 1;
+        s.set.values<double>(t, Field::kVolumeChange)[lane] = volume_change;
+      });
+      return largest(impulse(s, {0, 1, 0, 0}, v));
+    };
+    EXPECT_EQ(stiffness_at(0.05), 0);
+    EXPECT_GT(stiffness_at(-0.05), 0);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Levels, Stiffness, testing::ValuesIn(levels_here()), level_name);
 
 }  // namespace
