@@ -28,35 +28,62 @@ void Obstacles::find_near(const Vec3& center, double radius, std::vector<std::ui
     if (distance(*all_[i].source->shape, to_local(all_[i], center)) < radius) near.push_back(i);
 }
 
+std::optional<Obstacles::Touch> Obstacles::touch(std::uint32_t obstacle, const Vec3& x) const {
+  const Placed& o = all_[obstacle];
+  const Vec3 local = to_local(o, x);
+  if (distance(*o.source->shape, local) >= 0) return std::nullopt;
+  Touch t{o.source, o.velocity_at_origin + o.velocity_gradient * x, Vec3::Zero()};
+  if (o.source->adhesive) return t;
+  t.normal = o.pose.rotation * normal(*o.source->shape, local, normal_step_);
+  if (flat_) {
+    t.normal.z() = 0;
+    const double length = t.normal.norm();
+    if (length == 0) return std::nullopt;
+    t.normal /= length;
+  }
+  return t;
+}
+
+/// What is left of a slip velocity that loses `stop` (m/s).
+static Vec3 after_friction(const Vec3& slip, double stop) {
+  const double speed = slip.norm();
+  return speed <= stop ? Vec3(Vec3::Zero()) : Vec3(slip * (1 - stop / speed));
+}
+
 bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const {
   bool changed = false;
   for (const std::uint32_t i : near) {
-    const Placed& o = all_[i];
-    const Vec3 local = to_local(o, x);
-    if (distance(*o.source->shape, local) >= 0) continue;
-    const Vec3 v_obstacle = o.velocity_at_origin + o.velocity_gradient * x;
-    if (o.source->adhesive) {
-      velocity = v_obstacle;
+    const std::optional<Touch> t = touch(i, x);
+    if (!t) continue;
+    if (t->source->adhesive) {
+      velocity = t->velocity;
       changed = true;
       continue;
     }
-    Vec3 n = o.pose.rotation * normal(*o.source->shape, local, normal_step_);
-    if (flat_) {
-      n.z() = 0;
-      const double length = n.norm();
-      if (length == 0) continue;
-      n /= length;
-    }
-    const Vec3 v_rel = velocity - v_obstacle;
-    const double v_n = v_rel.dot(n);
+    const Vec3 v_rel = velocity - t->velocity;
+    const double v_n = v_rel.dot(t->normal);
     if (v_n >= 0) continue;
-    const Vec3 v_t = v_rel - n * v_n;
-    const double slip = v_t.norm();
-    const double stop = -o.source->friction * v_n;
-    velocity = slip <= stop ? v_obstacle : Vec3(v_obstacle + v_t * (1 - stop / slip));
+    velocity = t->velocity + after_friction(v_rel - t->normal * v_n, -t->source->friction * v_n);
     changed = true;
   }
   return changed;
+}
+
+void Obstacles::hold(const std::vector<std::uint32_t>& near, const Vec3& x, const Vec3& velocity,
+                     Hold& hold) const {
+  for (const std::uint32_t i : near) {
+    const std::optional<Touch> t = touch(i, x);
+    if (!t) continue;
+    if (t->source->adhesive) {
+      hold.all(t->velocity);
+      continue;
+    }
+    const Vec3 v_rel = hold.meet(velocity) - t->velocity;
+    const double v_n = v_rel.dot(t->normal);
+    if (v_n >= 0) continue;
+    const double slip = (v_rel - t->normal * v_n).norm();
+    hold.along(t->normal, t->velocity, t->source->friction, slip <= -t->source->friction * v_n);
+  }
 }
 
 Walls::Walls(const Scene& scene)
@@ -102,6 +129,18 @@ bool Walls::resolve(const Vec3& x, Vec3& velocity) const {
     }
   }
   return changed;
+}
+
+void Walls::hold(const Vec3& x, const Vec3& velocity, Hold& hold) const {
+  for (int a = 0; a < dimension_; ++a) {
+    if (!closed_[static_cast<std::size_t>(a)]) continue;
+    const bool below = x[a] <= box_.min[a] + tolerance_;
+    const bool above = x[a] >= box_.max[a] - tolerance_;
+    if (!below && !above) continue;
+    if (stick_) return hold.all(Vec3::Zero());
+    const double speed = hold.meet(velocity)[a];
+    if ((below && speed < 0) || (above && speed > 0)) hold.along(Vec3::Unit(a), Vec3::Zero(), 0, false);
+  }
 }
 
 }  // namespace lather

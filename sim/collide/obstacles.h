@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "sim/collide/hold.h"
 #include "sim/frame.h"
 #include "sim/scene/scene.h"
 
@@ -33,7 +35,19 @@ class Obstacles {
   /// |v_n|, or all.
   bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const;
 
+  /// Adds to `hold` what contact with the obstacles `near` prescribes of the velocity at `x`, for a node that
+  /// would move with `velocity` without them: the same contacts as resolve() finds.
+  void hold(const std::vector<std::uint32_t>& near, const Vec3& x, const Vec3& velocity, Hold& hold) const;
+
  private:
+  /// An obstacle that holds a place inside it.
+  struct Touch {
+    const Obstacle* source;
+    Vec3 velocity;  // of the obstacle there
+    Vec3 normal;    // outward; not set for adhesive obstacles
+  };
+  [[nodiscard]] std::optional<Touch> touch(std::uint32_t obstacle, const Vec3& x) const;
+
   struct Placed {
     const Obstacle* source;
     Pose pose;
@@ -64,6 +78,9 @@ class Walls {
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
   /// moves.
   bool resolve(const Vec3& x, Vec3& velocity) const;
+
+  /// The same for a step that solves for velocities; see Obstacles::hold().
+  void hold(const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
   Box3 box_;

@@ -58,6 +58,7 @@ void for_figures(Measure& m, const Visit& visit) {
   visit(m.max_speed), visit(m.min_volume_ratio), visit(m.max_volume_ratio), visit(m.interior_nodes);
   visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged), visit(m.resampling_momentum);
   visit(m.density_mean), visit(m.density_min), visit(m.density_max), visit(m.density_within_5_percent);
+  visit(m.pieces), visit(m.largest_piece_share), visit(m.second_piece_share);
 }
 
 template <class AnyReport, class Visit>
@@ -66,6 +67,8 @@ void for_totals(AnyReport& r, const Visit& visit) {
       visit(r.render_seconds);
   visit(r.largest_cfl), visit(r.smallest_time_step), visit(r.largest_time_step), visit(r.points_removed);
   visit(r.mass_removed);
+  visit(r.solver.solves), visit(r.solver.iterations), visit(r.solver.most_iterations);
+  visit(r.solver.unconverged), visit(r.solver.convex);
 }
 
 }  // namespace

@@ -6,15 +6,16 @@
 #include "sim/mpm/advance.h"
 #include "sim/mpm/gather.h"
 #include "sim/mpm/grid_kernels.h"
+#include "sim/mpm/stiffness.h"
 
 namespace lather::LATHER_LEVEL {
 namespace {
 
 template <class Real, int Dim, bool Cubic, bool Apic>
 mpm::Kernels<Real> kernels() {
-  return {scatter<Real, Dim, Cubic, Apic>, reduce<Real, Dim>,
-          update_grid<Real, Dim, Apic>,    collect<Real, Dim>,
-          gather<Real, Dim, Cubic, Apic>,  advance<Real, Dim>};
+  return {
+      scatter<Real, Dim, Cubic, Apic>, reduce<Real, Dim>,  update_grid<Real, Dim, Apic>, collect<Real, Dim>,
+      gather<Real, Dim, Cubic, Apic>,  advance<Real, Dim>, stiffness<Real, Dim, Cubic>};
 }
 
 template <class Real>

@@ -37,6 +37,10 @@ constexpr int neighbours(int dim) {
   return power(3, dim);
 }
 
+/// A node with less mass, kg, would lose the digits of p/m: it takes no part.
+template <class Real>
+inline constexpr Real kLeastMass = sizeof(Real) == 4 ? Real(1e-34) : Real(1e-290);
+
 /// One material's constants in the run's precision.
 template <class Real>
 struct MaterialConstants {
@@ -62,6 +66,15 @@ struct StepConstants {
   Real gravity[3];  ///< m/s^2
   Real flip;        ///< alpha of this step: share of FLIP against PIC
   Real phase;       ///< of rounding positions, in [0, 1): see advance()
+};
+
+/// Weights of what stiffness() adds up, dimensionless but the last; see sim/mpm/stiffness.h.
+template <class Real>
+struct StiffnessTerms {
+  Real stress;     ///< of the stress at hand
+  Real material;   ///< of the change of stress that deformation brings; never negative as an energy
+  Real geometric;  ///< of the change of force that turning and stretching under stress bring
+  Real diffusion;  ///< of velocity, m^2/s
 };
 
 /// A block's place: index of its first node per axis.
@@ -104,6 +117,12 @@ struct Kernels {
 
   /// [14. positions] x += dt v, and a check of the state.
   BlockExtremes (*advance)(const BlockPoints<Real>&, const StepConstants<Real>&);
+
+  /// [semi-implicit step] Adds to the block buffer `impulse` (0, p) the momentum that the points' internal
+  /// forces give over dt while the grid moves with `velocity`, a buffer of (any, v): a linear function of it,
+  /// plus a constant.
+  void (*stiffness)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&,
+                    const StiffnessTerms<Real>&, const Real* velocity, Real* impulse);
 };
 
 /// The law at single points, for tests and the rheometer.

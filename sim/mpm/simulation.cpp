@@ -14,6 +14,7 @@
 #include "sim/plan/seed.h"
 #include "sim/plan/step_bound.h"
 #include "sim/report/measure.h"
+#include "sim/report/pieces.h"
 
 namespace lather::mpm {
 namespace {
@@ -43,7 +44,6 @@ class MpmSimulation final : public Simulation {
     report_.version = version();
     report_.kernel_level = to_string(plan.choices.kernel_level);
     report_.threads = threads;
-    report_.warnings = plan.warnings;
     measure(0);
   }
 
@@ -98,6 +98,7 @@ class MpmSimulation final : public Simulation {
     check(seen, step, time, dt);
     last_step_ = dt;
     count_removed(seen.dropped);
+    if (plan_.scene.numerics.integration == Integration::kSemiImplicit) count_solve(seen.solve);
     report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
     report_.largest_time_step = std::max(report_.largest_time_step, dt);
     report_.largest_cfl = std::max(report_.largest_cfl, seen.largest_cells);
@@ -135,6 +136,25 @@ class MpmSimulation final : public Simulation {
     throw SimulationError(d);
   }
 
+  /// A run whose solver stops early goes on: what is left of the residual acts like a small force, and
+  /// a state that it spoils is found by check().
+  [[nodiscard]] std::string unconverged_warning() const {
+    const SolverTotals& s = report_.solver;
+    return std::to_string(s.unconverged) + " of " + std::to_string(s.solves) +
+           " semi-implicit steps stopped at /numerics/solver_iterations (" +
+           std::to_string(plan_.scene.numerics.solver_iterations) +
+           ") before /numerics/solver_tolerance was met; raise the one, or take shorter steps.";
+  }
+
+  void count_solve(const SolveFigures& solve) {
+    SolverTotals& s = report_.solver;
+    ++s.solves;
+    s.iterations += static_cast<std::uint64_t>(solve.iterations);
+    s.most_iterations = std::max(s.most_iterations, solve.iterations);
+    s.unconverged += solve.converged ? 0 : 1;
+    s.convex += solve.convex ? 1 : 0;
+  }
+
   void count_removed(std::uint64_t points) {
     report_.points_removed += points;
     if (points == 0 || report_.frames.empty()) return;
@@ -153,6 +173,10 @@ class MpmSimulation final : public Simulation {
     count_removed(stepper_.sort_when_drifted(state_));
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     measure_density(stepper_, state_, model_, m);
+    const Pieces pieces = find_pieces(state_.sets, model_.bounds);
+    m.pieces = pieces.count;
+    m.largest_piece_share = pieces.largest_share;
+    m.second_piece_share = pieces.second_share;
     m.frame = index;
     m.time = state_.time;
     m.step = state_.step;
@@ -164,6 +188,8 @@ class MpmSimulation final : public Simulation {
     report_.frames.push_back(m);
     measured_frame_ = index;
     report_.simulated_time = state_.time;
+    report_.warnings = plan_.warnings;
+    if (report_.solver.unconverged > 0) report_.warnings.push_back(unconverged_warning());
     if (report_.wall_seconds > 0)
       report_.point_steps_per_second = static_cast<double>(report_.point_steps) / report_.wall_seconds;
     report_.stages.clear();

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "sim/math/parallel.h"
+#include "sim/mpm/grid_contact.h"
 #include "sim/mpm/interior_voids.h"
+#include "sim/mpm/semi_implicit.h"
 #include "sim/plan/step_bound.h"
 
 namespace lather::mpm {
@@ -14,10 +16,16 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   const std::uint64_t dropped = sort_when_drifted(state);
   const StepConstants<Real> constants = this->constants(state, dt);
   obstacles_.place(state.time, dt);
-  rasterize(state, constants, model_.materials);           // 1, 3
-  update_grid(constants);                                  // 5, 6
+  SolveFigures solve;
+  if (solver_) {
+    solve = solve_grid(state, constants);  // 1, 3, 5, 6
+  } else {
+    rasterize(state, constants, model_.materials);  // 1, 3
+    update_grid(constants);                         // 5, 6
+  }
   StepResult result = update_particles(state, constants);  // 7, 9, 10, 13, 14
   result.dropped = dropped;
+  result.solve = solve;
   state.drift += result.largest_cells;
   state.max_speed = result.max_speed;
   state.time += dt;
@@ -36,6 +44,16 @@ Stepper<Real>::Stepper(const Model<Real>& model, int threads)
       scratch_(static_cast<std::size_t>(threads)),
       near_(static_cast<std::size_t>(threads)) {
   for (auto& s : scratch_) s.resize(2 * static_cast<std::size_t>(buffer_reals(model.scene.dimension)));
+  if (model.scene.numerics.integration == Integration::kSemiImplicit)
+    solver_ = std::make_unique<VelocitySolver<Real>>(model, threads);
+}
+
+template <class Real>
+Stepper<Real>::~Stepper() = default;
+
+template <class Real>
+std::size_t Stepper<Real>::bytes() const {
+  return grid_.bytes() + (solver_ ? solver_->bytes() : 0);
 }
 
 template <class Real>
@@ -71,14 +89,6 @@ StepConstants<Real> Stepper<Real>::constants(const State<Real>& state, double dt
 }
 
 template <class Real>
-BlockPoints<Real> Stepper<Real>::points(State<Real>& state, std::size_t set, std::int32_t range,
-                                        const std::vector<MaterialConstants<Real>>& materials) const {
-  ParticleSet<Real>& s = state.sets[set];
-  const BlockRange& r = s.ranges()[static_cast<std::size_t>(range)];
-  return {s.tile(static_cast<std::size_t>(r.first_tile)), r.count, &s.layout(), &materials[set]};
-}
-
-template <class Real>
 void Stepper<Real>::rasterize(State<Real>& state, const StepConstants<Real>& step,
                               const std::vector<MaterialConstants<Real>>& materials) {
   parallel_for(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), 1, [&](std::int64_t index) {
@@ -88,8 +98,8 @@ void Stepper<Real>::rasterize(State<Real>& state, const StepConstants<Real>& ste
       const BlockPlace place = BlockGrid<Real>::place(grid_.point_blocks()[b].block);
       for (std::size_t s = 0; s < state.sets.size(); ++s)
         if (const std::int32_t range = grid_.range_of(s, b); range >= 0)
-          model_.kernels.scatter(points(state, s, range, materials), place, step, grid_.momentum_buffer(b),
-                                 grid_.force_buffer(b));
+          model_.kernels.scatter(block_points(state.sets[s], range, materials[s]), place, step,
+                                 grid_.momentum_buffer(b), grid_.force_buffer(b));
     });
   });
 }
@@ -98,60 +108,65 @@ template <class Real>
 void Stepper<Real>::update_grid(const StepConstants<Real>& step) {
   parallel_for(threads_, static_cast<std::int64_t>(grid_.grid_blocks().size()), 4, [&](std::int64_t index) {
     const auto g = static_cast<std::size_t>(index);
-    clock_.time(Stage::kReduce, [&] {
-      const Real* momentum[27];
-      const Real* force[27];
-      for (int n = 0; n < neighbours(model_.scene.dimension); ++n) {
-        const std::int32_t b = grid_.grid_blocks()[g].points[static_cast<std::size_t>(n)];
-        momentum[n] = b < 0 ? nullptr : grid_.momentum_buffer(static_cast<std::size_t>(b));
-        force[n] = b < 0 ? nullptr : grid_.force_buffer(static_cast<std::size_t>(b));
-      }
-      model_.kernels.reduce(momentum, grid_.node(g));
-      if (grid_.increment(g) != nullptr) model_.kernels.reduce(force, grid_.increment(g));
-    });
-    clock_.time(Stage::kGridVelocities,
-                [&] { model_.kernels.update_grid(step, grid_.node(g), grid_.increment(g)); });
+    grid_velocities(g, step);
     clock_.time(Stage::kGridCollisions,
                 [&] { resolve_grid_collisions(g, near_[static_cast<std::size_t>(thread_index())]); });
   });
 }
 
 template <class Real>
+void Stepper<Real>::grid_velocities(std::size_t block, const StepConstants<Real>& step) {
+  clock_.time(Stage::kReduce, [&] {
+    const Real* momentum[27];
+    const Real* force[27];
+    for (int n = 0; n < neighbours(model_.scene.dimension); ++n) {
+      const std::int32_t b = grid_.grid_blocks()[block].points[static_cast<std::size_t>(n)];
+      momentum[n] = b < 0 ? nullptr : grid_.momentum_buffer(static_cast<std::size_t>(b));
+      force[n] = b < 0 ? nullptr : grid_.force_buffer(static_cast<std::size_t>(b));
+    }
+    model_.kernels.reduce(momentum, grid_.node(block));
+    if (grid_.increment(block) != nullptr) model_.kernels.reduce(force, grid_.increment(block));
+  });
+  clock_.time(Stage::kGridVelocities,
+              [&] { model_.kernels.update_grid(step, grid_.node(block), grid_.increment(block)); });
+}
+
+/// The semi-implicit scheme in place of rasterize() and update_grid(): over a step of no length those give
+/// mass and velocity; the solver finds what forces and contact make of them.
+template <class Real>
+SolveFigures Stepper<Real>::solve_grid(State<Real>& state, const StepConstants<Real>& step) {
+  StepConstants<Real> now = step;
+  now.dt = 0;
+  rasterize(state, now, model_.materials);
+  const auto blocks = static_cast<std::int64_t>(grid_.grid_blocks().size());
+  parallel_for(threads_, blocks, 4,
+               [&](std::int64_t g) { grid_velocities(static_cast<std::size_t>(g), now); });
+  const SolveFigures figures = solver_->solve(state, grid_, step, obstacles_, clock_);
+  parallel_for(threads_, blocks, 4, [&](std::int64_t g) {
+    clock_.time(Stage::kGridCollisions, [&] {
+      resolve_grid_collisions(static_cast<std::size_t>(g), near_[static_cast<std::size_t>(thread_index())]);
+    });
+  });
+  return figures;
+}
+
+template <class Real>
 void Stepper<Real>::resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near) {
-  const Scene& scene = model_.scene;
-  const double h = scene.spacing;
-  const int dim = scene.dimension;
-  const BlockPlace place = BlockGrid<Real>::place(grid_.grid_blocks()[block].block);
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
-  for (int a = 0; a < dim; ++a) {
-    low[a] = scene.domain.box.min[a] + place.first_node[a] * h;
-    high[a] = low[a] + (kBlockWidth - 1) * h;
-  }
-  obstacles_.find_near(0.5 * (low + high), 0.5 * (high - low).norm() + 1e-6 * h, near);
-  const bool walls = model_.walls.near(low, high, 1e-6 * h);
-  if (near.empty() && !walls) return;
+  const int dim = model_.scene.dimension;
   Real* nodes = grid_.node(block);
   Real* increments = grid_.increment(block);
-  for (int i = 0; i < block_nodes(dim); ++i) {
-    Real* q = nodes + i * kQuad;
-    if (q[0] == Real(0)) continue;
-    Vec3 x = low;
-    Vec3 v = Vec3::Zero();
-    int rest = i;
-    for (int a = dim - 1; a >= 0; --a) {
-      x[a] += (rest % kBlockWidth) * h;
-      rest /= kBlockWidth;
-      v[a] = static_cast<double>(q[1 + a]);
-    }
-    bool changed = obstacles_.resolve(near, x, v);
-    if (walls) changed = model_.walls.resolve(x, v) || changed;
-    if (!changed) continue;
-    for (int a = 0; a < dim; ++a) {
-      if (increments != nullptr) increments[i * kQuad + 1 + a] += static_cast<Real>(v[a]) - q[1 + a];
-      q[1 + a] = static_cast<Real>(v[a]);
-    }
-  }
+  for_nodes_near_contact(model_, obstacles_, grid_.grid_blocks()[block].block, nodes, near,
+                         [&](int i, const Vec3& x, bool walls) {
+                           Real* q = nodes + i * kQuad;
+                           Vec3 v = quad_vector(q, dim);
+                           bool changed = obstacles_.resolve(near, x, v);
+                           if (walls) changed = model_.walls.resolve(x, v) || changed;
+                           if (!changed) return;
+                           if (increments != nullptr)
+                             for (int a = 0; a < dim; ++a)
+                               increments[i * kQuad + 1 + a] += static_cast<Real>(v[a]) - q[1 + a];
+                           put_quad_vector(q, dim, v);
+                         });
 }
 
 template <class Real>
@@ -178,7 +193,7 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
     for (std::size_t s = 0; s < state.sets.size(); ++s) {
       const std::int32_t range = grid_.range_of(s, b);
       if (range < 0) continue;
-      const BlockPoints<Real> p = points(state, s, range, model_.materials);
+      const BlockPoints<Real> p = block_points(state.sets[s], range, model_.materials[s]);
       clock_.time(Stage::kUpdateParticles,
                   [&] { model_.kernels.gather(p, place, step, velocity, increment); });
       clock_.time(Stage::kParticleCollisions, [&] {

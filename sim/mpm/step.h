@@ -46,6 +46,21 @@ struct State {
   ResampleTotals resampled;
 };
 
+/// One material's points in range `range` of its set.
+template <class Real>
+[[nodiscard]] BlockPoints<Real> block_points(ParticleSet<Real>& set, std::int32_t range,
+                                             const MaterialConstants<Real>& material) {
+  const BlockRange& r = set.ranges()[static_cast<std::size_t>(range)];
+  return {set.tile(static_cast<std::size_t>(r.first_tile)), r.count, &set.layout(), &material};
+}
+
+/// How a semi-implicit step's velocities were solved for.
+struct SolveFigures {
+  int iterations = 0;
+  bool converged = true;  ///< to the tolerance
+  bool convex = false;    ///< went on without the part of the stiffness that may be negative
+};
+
 /// What a step saw.
 struct StepResult {
   double largest_cells = 0;  ///< largest |v| dt / h of any point along an axis
@@ -53,13 +68,18 @@ struct StepResult {
   bool finite = true;
   bool collapsed = false;     ///< some J <= 0
   std::uint64_t dropped = 0;  ///< points that left an open domain
+  SolveFigures solve;
 };
 
-/// One explicit step of the Material Point Method.
+template <class Real>
+class VelocitySolver;
+
+/// One step of the Material Point Method.
 template <class Real>
 class Stepper {
  public:
   Stepper(const Model<Real>& model, int threads);
+  ~Stepper();
 
   /// Advances `state` by dt (s). The result says whether the state is still sound; the caller decides.
   StepResult step(State<Real>& state, double dt);
@@ -84,26 +104,27 @@ class Stepper {
   [[nodiscard]] std::optional<std::uint64_t> interior_voids(const State<Real>& state);
 
   [[nodiscard]] const StageClock& clock() const { return clock_; }
-  [[nodiscard]] std::size_t bytes() const { return grid_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   [[nodiscard]] StepConstants<Real> constants(const State<Real>& state, double dt) const;
   void rasterize(State<Real>& state, const StepConstants<Real>& step,
                  const std::vector<MaterialConstants<Real>>& materials);
   void update_grid(const StepConstants<Real>& step);
+  void grid_velocities(std::size_t block, const StepConstants<Real>& step);
+  SolveFigures solve_grid(State<Real>& state, const StepConstants<Real>& step);
   void resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near);
   StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
   void resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
                                    std::vector<std::uint32_t>& near);
   [[nodiscard]] bool resampling_due(double before, double after) const;
   std::uint64_t avoid_void(State<Real>& state);
-  [[nodiscard]] BlockPoints<Real> points(State<Real>& state, std::size_t set, std::int32_t range,
-                                         const std::vector<MaterialConstants<Real>>& materials) const;
 
   const Model<Real>& model_;
   int threads_;
   Obstacles obstacles_;
   BlockGrid<Real> grid_;
+  std::unique_ptr<VelocitySolver<Real>> solver_;  // null in explicit scenes
   StageClock clock_;
   std::vector<std::vector<Real>> scratch_;        // per thread: two block buffers
   std::vector<std::vector<std::uint32_t>> near_;  // per thread

@@ -30,10 +30,12 @@ std::vector<std::string> planned_stages(const Scene& scene) {
       scene.domain.boundary != Boundary::kOpen && !(scene.domain.periodic[0] && scene.domain.periodic[1] &&
                                                     (scene.dimension == 2 || scene.domain.periodic[2]));
   const bool contact = walls || !scene.obstacles.empty();
+  const bool semi_implicit = scene.numerics.integration == Integration::kSemiImplicit;
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
     if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
+    if (!semi_implicit && stage == Stage::kSolveVelocities) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
   }
   return stages;
@@ -55,7 +57,8 @@ std::uint64_t expected_memory(const Plan& plan) {
   const double blocks = 1.5 * points / points_per_block + 27;
   const double quads = s.numerics.transfer == Transfer::kApic ? 1 : 2;
   const double buffers = blocks * quads * 4 * real * (std::pow(8, s.dimension) + 4);
-  const double grid = 3 * blocks * quads * 4 * real * std::pow(4, s.dimension);
+  const double vectors = s.numerics.integration == Integration::kSemiImplicit ? 4 : 0;  // the solver's
+  const double grid = 3 * blocks * (quads + vectors) * 4 * real * std::pow(4, s.dimension);
   const double resampling = s.numerics.resampling ? 60 * points : 0;  // the points' bins, distances
   double cells = 1;
   for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
@@ -85,7 +88,7 @@ void warn(Plan& plan) {
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
   }
-  if (s.numerics.time_step > plan.step_bound)
+  if (s.numerics.integration == Integration::kExplicit && s.numerics.time_step > plan.step_bound)
     plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") +
                             ", is longer than a pressure wave takes through a cell, " +
                             number(plan.step_bound, "s") +

@@ -11,6 +11,7 @@ enum class Stage : int {
   kRasterize,           ///< 1, 3: mass, momentum and internal forces to block buffers
   kReduce,              ///< block buffers to the grid
   kGridVelocities,      ///< 5
+  kSolveVelocities,     ///< 5, semi-implicit: velocities at the end of the step
   kGridCollisions,      ///< 6
   kCollect,             ///< grid to block buffers
   kUpdateParticles,     ///< 7, 9, 10: deformation, velocities, plastic flow
@@ -18,12 +19,13 @@ enum class Stage : int {
   kPositions,           ///< 14
   kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 10;
+inline constexpr int kStageCount = 11;
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
                                                                      "rasterize",
                                                                      "reduce",
                                                                      "grid velocities",
+                                                                     "solve velocities",
                                                                      "grid collisions",
                                                                      "collect",
                                                                      "update particles",

@@ -46,6 +46,19 @@ struct FrameMeasure {
   double density_min = 0;
   double density_max = 0;
   double density_within_5_percent = 0;  ///< fraction of interior nodes
+  // Connected pieces of the material; see sim/report/pieces.h.
+  std::uint64_t pieces = 0;        ///< with at least 1 % of the points each
+  double largest_piece_share = 0;  ///< of the points
+  double second_piece_share = 0;   ///< of the points, 0 where there is one piece
+};
+
+/// The solver of a semi-implicit run.
+struct SolverTotals {
+  std::uint64_t solves = 0;
+  std::uint64_t iterations = 0;   ///< of all solves
+  int most_iterations = 0;        ///< of one solve
+  std::uint64_t unconverged = 0;  ///< solves that ended short of the tolerance
+  std::uint64_t convex = 0;       ///< solves that went on without the stiffness that may be negative
 };
 
 /// What happened: measured, never planned.
@@ -69,6 +82,7 @@ struct Report {
   double largest_time_step = 0;   ///< s
   std::uint64_t points_removed = 0;
   double mass_removed = 0;  ///< kg
+  SolverTotals solver;      ///< of an explicit run: all 0
   std::vector<StageTime> stages;
   std::vector<FrameMeasure> frames;
   std::vector<std::string> warnings;

@@ -47,7 +47,21 @@ Json frame(const FrameMeasure& m) {
             {"mean", m.density_mean},
             {"min", m.density_min},
             {"max", m.density_max},
-            {"within_5_percent", m.density_within_5_percent}}}};
+            {"within_5_percent", m.density_within_5_percent}}},
+          {"pieces",
+           {{"count", m.pieces},
+            {"largest_share", m.largest_piece_share},
+            {"second_share", m.second_piece_share}}}};
+}
+
+Json solver(const SolverTotals& s) {
+  if (s.solves == 0) return nullptr;
+  return {{"solves", s.solves},
+          {"iterations", s.iterations},
+          {"mean_iterations", static_cast<double>(s.iterations) / static_cast<double>(s.solves)},
+          {"most_iterations", s.most_iterations},
+          {"unconverged", s.unconverged},
+          {"convex", s.convex}};
 }
 
 }  // namespace
@@ -76,6 +90,7 @@ std::string to_json(const Report& r) {
                      {"time_step", {{"smallest", r.smallest_time_step}, {"largest", r.largest_time_step}}},
                      {"points_removed", r.points_removed},
                      {"mass_removed", r.mass_removed},
+                     {"solver", solver(r.solver)},
                      {"stages", stages},
                      {"frames", frames},
                      {"warnings", r.warnings}};

@@ -65,6 +65,19 @@ const Table<Numerics>& numerics() {
                    "automatic step over its bound"),
        optional<N>("max_time_step", &N::max_time_step, number("s", above_to(0, kForever)),
                    "largest automatic step"),
+       optional<N>("integration", &N::integration,
+                   enumeration<Integration>(
+                       {{"explicit", Integration::kExplicit}, {"semi-implicit", Integration::kSemiImplicit}}),
+                   "how velocities are advanced: from the forces at hand, or solved for with the change of "
+                   "forces over the step"),
+       optional<N>("implicit_step_factor", &N::implicit_step_factor, number("1", from_to(1, 1000)),
+                   "automatic semi-implicit step over the automatic explicit one"),
+       optional<N>("implicit_share", &N::implicit_share, number("1", from_to(0.5, 1)),
+                   "weight of the forces' change over a semi-implicit step; 1 damps waves most"),
+       optional<N>("solver_tolerance", &N::solver_tolerance, number("1", from_to(1e-6, 0.5)),
+                   "residual at which the semi-implicit solver stops, over its first one"),
+       optional<N>("solver_iterations", &N::solver_iterations, integer(1, 10'000),
+                   "most iterations of the semi-implicit solver in one step"),
        resampling_field()});
   return table;
 }

@@ -23,6 +23,7 @@ enum class Boundary { kSlip, kStick, kOpen };  ///< kOpen: points that leave are
 enum class Kernel { kQuadratic, kCubic };
 enum class Transfer { kFlip, kApic };
 enum class Precision { kFloat, kDouble };
+enum class Integration { kExplicit, kSemiImplicit };
 
 struct Domain {
   Box3 box;
@@ -75,6 +76,12 @@ struct Numerics {
   double time_step = 0;                     ///< s; 0: from the step bound
   double safety_factor = 0.4;               ///< of the step bound, dimensionless
   double max_time_step = 1e30;              ///< s, of the automatic step
+  Integration integration = Integration::kExplicit;
+  // Of the semi-implicit step only:
+  double implicit_step_factor = 10;  ///< automatic step over the explicit one's, dimensionless
+  double implicit_share = 1;         ///< beta: weight of the change of force over the step, dimensionless
+  double solver_tolerance = 1e-2;    ///< residual over the first one, in the norm of the kinetic energy
+  int solver_iterations = 200;       ///< most of one step
   std::optional<Resampling> resampling;     ///< none: off
 };
 
