@@ -135,8 +135,10 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
     }
     m.bytes_per_point = layout.stride / kTile;
     m.wave_speed = wave_speed(scene.materials[i].herschel_bulkley);
-    m.numerical_viscosity =
-        blend_viscosity(scene, scene.materials[i].herschel_bulkley.density, plan.time_step);
+    const double density = scene.materials[i].herschel_bulkley.density;
+    m.numerical_viscosity = blend_viscosity(scene, density, plan.time_step);
+    if (scene.numerics.integration == Integration::kSemiImplicit)
+      m.numerical_viscosity += density * missing_diffusion(scene, plan.time_step);
     plan.points += m.points;
     plan.materials.push_back(std::move(m));
   }

@@ -78,11 +78,11 @@ struct Numerics {
   double max_time_step = 1e30;              ///< s, of the automatic step
   Integration integration = Integration::kExplicit;
   // Of the semi-implicit step only:
-  double implicit_step_factor = 10;  ///< automatic step over the explicit one's, dimensionless
-  double implicit_share = 1;         ///< beta: weight of the change of force over the step, dimensionless
-  double solver_tolerance = 1e-2;    ///< residual over the first one, in the norm of the kinetic energy
-  int solver_iterations = 200;       ///< most of one step
-  std::optional<Resampling> resampling;     ///< none: off
+  double implicit_step_factor = 10;      ///< automatic step over the explicit one's, dimensionless
+  double implicit_share = 1;             ///< beta: weight of the change of force over the step, dimensionless
+  double solver_tolerance = 1e-2;        ///< residual over the first one, in the norm of the kinetic energy
+  int solver_iterations = 200;           ///< most of one step
+  std::optional<Resampling> resampling;  ///< none: off
 };
 
 struct Scene {
