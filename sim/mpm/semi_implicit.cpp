@@ -27,7 +27,7 @@ struct VelocitySolver<Real>::Run {
   int dim = s.model_.scene.dimension;
   std::size_t reals = static_cast<std::size_t>(block_reals(dim));
 
-  /// Node k of 'vector' in block g.
+  /// The nodes of grid block g in `vector`.
   Real* at(std::vector<Real>& vector, std::size_t g) const { return vector.data() + g * reals; }
 
   /// Calls body(index into active_, grid block) for all blocks with mass.

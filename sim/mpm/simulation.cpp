@@ -130,9 +130,12 @@ class MpmSimulation final : public Simulation {
       return;
     }
     const Numerics& n = plan_.scene.numerics;
-    d.advice = n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") +
-                                     "; the step bound is " + with_unit(plan_.step_bound, "s") + "."
-                               : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
+    d.advice =
+        n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") + "; the step bound is " +
+                              with_unit(plan_.step_bound, "s") + "."
+        : n.integration == Integration::kSemiImplicit
+            ? "Lower /numerics/implicit_step_factor from " + with_unit(n.implicit_step_factor, "") + "."
+            : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
     throw SimulationError(d);
   }
 
