@@ -63,8 +63,9 @@ void heed_agent(LineSocket& down, std::atomic<bool>& stop) {
 RunnerResult run_order(const RunnerOrder& order, RunEvents& events, const std::atomic<bool>& stop) {
   try {
     const std::filesystem::path directory = order.directory;
-    RunSettings settings = {directory / kFramesPath, directory / kReportName, order.threads,
-                            order.render_backend, directory};
+    RunSettings settings = {
+        directory / kFramesPath, directory / kReportName, order.threads, order.render_backend, directory,
+        directory / kProbesName};
     const bool draw_only = !order.particles.empty();
     if (draw_only) settings.files.clear();
     const Report report =

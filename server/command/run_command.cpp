@@ -23,6 +23,8 @@ int conclude(const Report& report, const RunOptions& options) {
   if (!options.json)
     std::printf("%zu frames in %s\nreport in %s\n", report.frames.size(), (options.out / "frames").c_str(),
                 (options.out / "report.json").c_str());
+  if (!options.json && !report.probes.empty())
+    std::printf("probes in %s\n", (options.out / "probes.csv").c_str());
   return 0;
 }
 
@@ -33,8 +35,12 @@ int run_command(const RunOptions& options) {
   const std::atomic<bool>& interrupted = heed_interrupts();
   std::filesystem::create_directories(options.out);
   write_whole(options.out / "plan.json", to_json(plan));
-  const RunSettings settings = {options.out / "frames", options.out / "report.json", options.threads,
-                                options.render_backend, options.out};
+  const RunSettings settings = {options.out / "frames",
+                                options.out / "report.json",
+                                options.threads,
+                                options.render_backend,
+                                options.out,
+                                options.out / "probes.csv"};
   const Report report =
       with_events(options.json, [&](RunEvents& events) { return run(plan, settings, events, interrupted); });
   return conclude(report, options);

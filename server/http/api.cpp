@@ -60,6 +60,8 @@ void Api::add_artifact_routes() {
         [this, kind](const HttpRequest&, const Captures& at) { return get_file(at[0], at[1], kind); });
   add("/jobs/{}/frames.zip", [this](const HttpRequest&, const Captures& at) { return get_zip(at[0]); });
   add("/jobs/{}/report", [this](const HttpRequest&, const Captures& at) { return get_report(at[0]); });
+  add("/jobs/{}/probes.csv",
+      [this](const HttpRequest& request, const Captures& at) { return get_probes(request, at[0]); });
   add("/jobs/{}/plan", [this](const HttpRequest&, const Captures& at) { return get_plan(at[0]); });
   add("/jobs/{}/log", [this](const HttpRequest&, const Captures& at) { return get_log(at[0]); });
 }

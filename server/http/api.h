@@ -55,6 +55,7 @@ class Api {
   [[nodiscard]] FrameRow need_frame(const Job& job, const std::string& number);
   [[nodiscard]] HttpResponse get_zip(const std::string& id);
   [[nodiscard]] HttpResponse get_report(const std::string& id);
+  [[nodiscard]] HttpResponse get_probes(const HttpRequest& request, const std::string& id);
   [[nodiscard]] HttpResponse get_plan(const std::string& id);
   [[nodiscard]] HttpResponse get_log(const std::string& id);
   [[nodiscard]] std::optional<std::string> read_frame(const std::string& id, const FrameRow& frame) const;

@@ -155,6 +155,21 @@ HttpResponse Api::get_report(const std::string& id) {
   return json_response(200, std::move(*report));
 }
 
+HttpResponse Api::get_probes(const HttpRequest& request, const std::string& id) {
+  const Job job = need_job(id);
+  std::optional<std::string> csv =
+      read_beneath(job_directory(settings_.data, id), attempt_path(job.attempt) + '/' + kProbesName);
+  if (!csv)
+    throw HttpError(404,
+                    std::string("there are no samples: the scene has no probes, or the job has not ended "
+                                "by itself yet; it is ") +
+                        to_string(job.state));
+  HttpResponse response = bytes_response(request, std::move(*csv));
+  if (response.status < 300) response.content_type = "text/csv; charset=utf-8";
+  response.headers.emplace_back("Cache-Control", "no-cache");
+  return response;
+}
+
 HttpResponse Api::get_plan(const std::string& id) {
   static_cast<void>(need_job(id));
   return json_response(200, store_.plan(id).value_or("{}"));

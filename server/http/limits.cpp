@@ -59,17 +59,21 @@ std::string plan_numbers(const Plan& plan) {
              {"height", output.height}});
 }
 
-/// Points if every body filled its bounds.
+/// Points if the shape filled its bounds.
+double most_points_in(const Scene& scene, const Shape& shape) {
+  const Box3 box = bounds(shape, scene.domain.box);
+  const Vec3 extent = box.max.cwiseMin(scene.domain.box.max) - box.min.cwiseMax(scene.domain.box.min);
+  double points = scene.points_per_cell;
+  for (int axis = 0; axis < scene.dimension; ++axis)
+    points *= std::ceil(std::max(0.0, extent[axis]) / scene.spacing);
+  return points;
+}
+
+/// Points if every body and every emitter's shape filled its bounds once.
 double most_points(const Scene& scene) {
   double points = 0;
-  for (const Body& body : scene.bodies) {
-    const Box3 box = bounds(*body.shape, scene.domain.box);
-    const Vec3 extent = box.max.cwiseMin(scene.domain.box.max) - box.min.cwiseMax(scene.domain.box.min);
-    double cells = scene.points_per_cell;
-    for (int axis = 0; axis < scene.dimension; ++axis)
-      cells *= std::ceil(std::max(0.0, extent[axis]) / scene.spacing);
-    points += cells;
-  }
+  for (const Body& body : scene.bodies) points += most_points_in(scene, *body.shape);
+  for (const Emitter& emitter : scene.emitters) points += most_points_in(scene, *emitter.shape);
   return points;
 }
 

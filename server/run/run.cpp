@@ -98,6 +98,8 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   report.render_backend = renderer.backend();
   report.render_seconds = renderer.seconds();
   report.threads = threads;
+  if (!settings.probes.empty() && !report.probes.empty())
+    write_whole(settings.probes, probes_csv(report.probes));
   write_whole(settings.report, to_json(report));
   return report;
 }

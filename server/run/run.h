@@ -19,6 +19,8 @@ struct RunSettings {
   std::string render_backend = "auto";
   std::filesystem::path files;  ///< directory of particles/00000.ply, skin/00000.obj …, those that the scene
                                 ///< asks for; "": none
+  std::filesystem::path probes =
+      {};  ///< file, CSV; written with the report when the scene has probes; "": none
 };
 
 struct RunProgress {

@@ -50,21 +50,23 @@ static Vec3 after_friction(const Vec3& slip, double stop) {
   return speed <= stop ? Vec3(Vec3::Zero()) : Vec3(slip * (1 - stop / speed));
 }
 
-bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const {
+bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
+                        const ContactSink& sink) const {
   bool changed = false;
   for (const std::uint32_t i : near) {
     const std::optional<Touch> t = touch(i, x);
     if (!t) continue;
+    const Vec3 before = velocity;
     if (t->source->adhesive) {
       velocity = t->velocity;
-      changed = true;
-      continue;
+    } else {
+      const Vec3 v_rel = velocity - t->velocity;
+      const double v_n = v_rel.dot(t->normal);
+      if (v_n >= 0) continue;
+      velocity = t->velocity + after_friction(v_rel - t->normal * v_n, -t->source->friction * v_n);
     }
-    const Vec3 v_rel = velocity - t->velocity;
-    const double v_n = v_rel.dot(t->normal);
-    if (v_n >= 0) continue;
-    velocity = t->velocity + after_friction(v_rel - t->normal * v_n, -t->source->friction * v_n);
     changed = true;
+    sink.take(i, x, before - velocity, mass);
   }
   return changed;
 }
@@ -89,6 +91,7 @@ void Obstacles::hold(const std::vector<std::uint32_t>& near, const Vec3& x, cons
 Walls::Walls(const Scene& scene)
     : box_(scene.domain.box),
       dimension_(scene.dimension),
+      index_(scene.obstacles.size()),
       stick_(scene.domain.boundary == Boundary::kStick),
       tolerance_(1e-6 * scene.spacing) {
   for (int a = 0; a < dimension_; ++a) {
@@ -112,7 +115,14 @@ bool Walls::inside(const Vec3& x) const {
   return true;
 }
 
-bool Walls::resolve(const Vec3& x, Vec3& velocity) const {
+bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const {
+  const Vec3 before = velocity;
+  if (!touch(x, velocity)) return false;
+  sink.take(index_, x, before - velocity, mass);
+  return true;
+}
+
+bool Walls::touch(const Vec3& x, Vec3& velocity) const {
   bool changed = false;
   for (int a = 0; a < dimension_; ++a) {
     if (!closed_[static_cast<std::size_t>(a)]) continue;

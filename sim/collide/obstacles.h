@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/collide/contact_sink.h"
 #include "sim/collide/hold.h"
 #include "sim/frame.h"
 #include "sim/scene/scene.h"
@@ -32,8 +33,9 @@ class Obstacles {
   ///
   /// Inside an adhesive obstacle the velocity becomes the obstacle's. Else, with v_rel = v - v_co and outward
   /// normal n: separating (v_rel . n >= 0) stays; the normal part is removed; the tangential part loses mu_f
-  /// |v_n|, or all.
-  bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const;
+  /// |v_n|, or all. What `mass` (kg) loses goes to `sink`.
+  bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
+               const ContactSink& sink) const;
 
   /// Adds to `hold` what contact with the obstacles `near` prescribes of the velocity at `x`, for a node that
   /// would move with `velocity` without them: the same contacts as resolve() finds.
@@ -54,6 +56,8 @@ class Obstacles {
     Vec3 velocity_at_origin = Vec3::Zero();
     Mat3 velocity_gradient = Mat3::Zero();
   };
+  /// The same for one obstacle.
+  bool touch(const Placed& o, const Vec3& x, Vec3& velocity) const;
   [[nodiscard]] static Vec3 to_local(const Placed& o, const Vec3& x) {
     return o.pose.rotation.conjugate() * (x - o.pose.translation);
   }
@@ -77,14 +81,17 @@ class Walls {
 
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
   /// moves.
-  bool resolve(const Vec3& x, Vec3& velocity) const;
+  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const;
 
   /// The same for a step that solves for velocities; see Obstacles::hold().
   void hold(const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
+  bool touch(const Vec3& x, Vec3& velocity) const;
+
   Box3 box_;
   int dimension_;
+  std::size_t index_;  // behind the obstacles', in a sink
   bool stick_;
   std::array<bool, 3> closed_{};
   std::array<bool, 3> periodic_{};

@@ -50,8 +50,9 @@ template <class Real>
 Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(plan.scene)), walls(plan.scene) {
   const bool cubic = scene.numerics.kernel == Kernel::kCubic;
   const bool apic = scene.numerics.transfer == Transfer::kApic;
-  kernels =
-      kernel_table<Real>(plan.choices.kernel_level).step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
+  const KernelTable<Real>& table = kernel_table<Real>(plan.choices.kernel_level);
+  point = table.point;
+  kernels = table.step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
   for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
   resampler = make_resampler(plan, bounds, materials);
   // See kHomeShift. A little less, for the rounding of sums of displacements.

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "sim/mpm/checkpoint.h"
 #include "sim/mpm/density.h"
 #include "sim/mpm/levels.h"
 #include "sim/mpm/point_states.h"
+#include "sim/mpm/probes.h"
 #include "sim/mpm/snapshot.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
@@ -41,22 +43,30 @@ class MpmSimulation final : public Simulation {
       state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
       state_.next_id = s.id + 1;
     });
+    state_.emitters.resize(scene.emitters.size());
+    state_.points_emitted.assign(scene.materials.size(), 0);
+    state_.points_left.assign(scene.materials.size(), 0);
+    state_.probes = first_probe_states(scene);
+    report_.probes = empty_probe_series(scene);
     report_.scene_name = scene.name;
     report_.scene_hash = scene_hash(scene);
     report_.version = version();
     report_.kernel_level = to_string(plan.choices.kernel_level);
     report_.threads = threads;
     measure(0);
+    sample_probes(state_, model_, threads_, report_.probes);
   }
 
   bool step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) override {
     if (index <= measured_frame_) return true;
     const double target = index / plan_.scene.frame_rate;
     while (state_.time < target) {
+      stepper_.emit(state_);
       const double left = target - state_.time;
       const double steps = steps_for(left, step_limit());
       step(left / steps);
       if (steps == 1) state_.time = target;
+      sample_probes(state_, model_, threads_, report_.probes);
       if (!heartbeat({index, state_.time, last_step_, state_.step})) return false;
     }
     measure(index);
@@ -104,7 +114,6 @@ class MpmSimulation final : public Simulation {
     const StepResult seen = stepper_.step(state_, dt);
     check(seen, step, time, dt);
     last_step_ = dt;
-    count_removed(seen.dropped);
     if (plan_.scene.numerics.integration == Integration::kSemiImplicit) count_solve(seen.solve);
     report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
     report_.largest_time_step = std::max(report_.largest_time_step, dt);
@@ -165,12 +174,27 @@ class MpmSimulation final : public Simulation {
     s.convex += solve.convex ? 1 : 0;
   }
 
-  void count_removed(std::uint64_t points) {
-    report_.points_removed += points;
-    if (points == 0 || report_.frames.empty()) return;
-    // What is gone is what is no longer there.
-    report_.mass_removed =
-        report_.frames.front().mass - measure_points(plan_.scene, state_.sets, threads_).mass;
+  /// Mass of so many points of each material, kg.
+  [[nodiscard]] double mass_of(const std::vector<std::uint64_t>& points) const {
+    double mass = 0;
+    for (std::size_t m = 0; m < points.size(); ++m)
+      mass += static_cast<double>(points[m]) * static_cast<double>(model_.materials[m].mass);
+    return mass;
+  }
+
+  void report_flows(FrameMeasure& m) {
+    m.points_emitted =
+        std::accumulate(state_.points_emitted.begin(), state_.points_emitted.end(), std::uint64_t{0});
+    m.mass_emitted = mass_of(state_.points_emitted);
+    m.points_left = std::accumulate(state_.points_left.begin(), state_.points_left.end(), std::uint64_t{0});
+    // What has left is what is no longer there; points do not weigh the same where they are resampled.
+    m.mass_left = m.points_left > 0 ? report_.frames.front().mass + m.mass_emitted - m.mass : 0;
+    report_.emitters.clear();
+    for (std::size_t e = 0; e < state_.emitters.size(); ++e) {
+      const EmitterState& own = state_.emitters[e];
+      report_.emitters.push_back(
+          {plan_.scene.emitters[e].name, own.releases, own.points, own.delayed, own.waited, own.waiting});
+    }
   }
 
   [[nodiscard]] std::uint64_t point_count() const {
@@ -180,7 +204,7 @@ class MpmSimulation final : public Simulation {
   }
 
   void measure(int index) {
-    count_removed(stepper_.sort_when_drifted(state_));
+    stepper_.sort_when_drifted(state_);
     stepper_.detect_tearing(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     measure_density(stepper_, state_, model_, m);
@@ -197,6 +221,7 @@ class MpmSimulation final : public Simulation {
     m.points_merged = state_.resampled.merged;
     m.resampling_momentum = state_.resampled.momentum_change;
     if (plan_.scene.wants_skin()) measure_skin(index, m);
+    report_flows(m);
     report_.frames.push_back(m);
     measured_frame_ = index;
     report_.simulated_time = state_.time;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/math/parallel.h"
+#include "sim/mpm/emission.h"
 #include "sim/mpm/grid_contact.h"
 #include "sim/mpm/interior_voids.h"
 #include "sim/mpm/semi_implicit.h"
@@ -13,9 +14,10 @@ namespace lather::mpm {
 
 template <class Real>
 StepResult Stepper<Real>::step(State<Real>& state, double dt) {
-  const std::uint64_t dropped = sort_when_drifted(state);
+  sort_when_drifted(state);
   const StepConstants<Real> constants = this->constants(state, dt);
   obstacles_.place(state.time, dt);
+  tally_.begin_step(grid_.grid_blocks().size(), grid_.point_blocks().size());
   plan_recovery(state, dt);
   detect_tearing(state);  // 2
   SolveFigures solve;
@@ -26,13 +28,13 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
     update_grid(constants);                         // 5, 6
   }
   StepResult result = update_particles(state, constants);  // 7 to 11, 13, 14
-  result.dropped = dropped;
   result.solve = solve;
+  tally_.end_step(state.time, state.probes);
   state.drift += result.largest_cells;
   state.max_speed = result.max_speed;
   state.time += dt;
   ++state.step;
-  if (resampling_due(state.time - dt, state.time)) result.dropped += avoid_void(state);  // 15
+  if (resampling_due(state.time - dt, state.time)) avoid_void(state);  // 15
   return result;
 }
 
@@ -41,6 +43,7 @@ Stepper<Real>::Stepper(const Model<Real>& model, int threads)
     : model_(model),
       threads_(threads),
       obstacles_(model.scene, model.scene.spacing),
+      tally_(model.scene, threads),
       grid_(model.scene.dimension, model.scene.numerics.transfer == Transfer::kApic),
       clock_(threads),
       scratch_(static_cast<std::size_t>(threads)),
@@ -59,14 +62,21 @@ std::size_t Stepper<Real>::bytes() const {
 }
 
 template <class Real>
-std::uint64_t Stepper<Real>::sort_when_drifted(State<Real>& state) {
+void Stepper<Real>::emit(State<Real>& state) {
+  if (model_.scene.emitters.empty()) return;
+  clock_.time(Stage::kEmit, [&] { emit_due(state, model_.scene); });
+}
+
+template <class Real>
+void Stepper<Real>::sort_when_drifted(State<Real>& state) {
   // A grid that is not there yet (after a restore) is rebuilt from the ranges as they were saved.
   const bool sort = !state.sorted || state.drift > model_.drift_margin;
-  if (!sort && !grid_.point_blocks().empty()) return 0;
-  std::uint64_t dropped = 0;
+  if (!sort && !grid_.point_blocks().empty()) return;
   clock_.time(Stage::kSort, [&] {
     if (sort) {
-      for (auto& set : state.sets) dropped += set.sort(model_.bounds, threads_);
+      state.points_left.resize(state.sets.size());
+      for (std::size_t m = 0; m < state.sets.size(); ++m)
+        state.points_left[m] += state.sets[m].sort(model_.bounds, threads_);
       state.sorted = true;
       state.drift = 0;
     }
@@ -74,7 +84,6 @@ std::uint64_t Stepper<Real>::sort_when_drifted(State<Real>& state) {
     for (const auto& set : state.sets) ranges.push_back(&set.ranges());
     grid_.rebuild(ranges, model_.bounds, threads_);
   });
-  return dropped;
 }
 
 template <class Real>
@@ -190,12 +199,14 @@ void Stepper<Real>::resolve_grid_collisions(std::size_t block, std::vector<std::
   const int dim = model_.scene.dimension;
   Real* nodes = grid_.node(block);
   Real* increments = grid_.increment(block);
+  const ContactSink sink = tally_.grid_sink(block);
   for_nodes_near_contact(model_, obstacles_, grid_.grid_blocks()[block].block, nodes, near,
                          [&](int i, const Vec3& x, bool walls) {
                            Real* q = nodes + i * kQuad;
                            Vec3 v = quad_vector(q, dim);
-                           bool changed = obstacles_.resolve(near, x, v);
-                           if (walls) changed = model_.walls.resolve(x, v) || changed;
+                           const auto mass = static_cast<double>(q[0]);
+                           bool changed = obstacles_.resolve(near, x, v, mass, sink);
+                           if (walls) changed = model_.walls.resolve(x, v, mass, sink) || changed;
                            if (!changed) return;
                            if (increments != nullptr)
                              for (int a = 0; a < dim; ++a)
@@ -229,14 +240,14 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
       const std::int32_t range = grid_.range_of(s, b);
       if (range < 0) continue;
       const BlockPoints<Real> p = block_points(state.sets[s], range, model_.materials[s]);
+      const BlockRange& at = state.sets[s].ranges()[static_cast<std::size_t>(range)];
       clock_.time(Stage::kUpdateParticles,
                   [&] { model_.kernels.gather(p, place, step, velocity, increment); });
       if (recovery_exponent_[s] != Real(0))
         clock_.time(Stage::kRecovery, [&] { model_.kernels.recover(p, recovery_exponent_[s]); });
-      clock_.time(Stage::kParticleCollisions, [&] {
-        resolve_particle_collisions(state.sets[s], state.sets[s].ranges()[static_cast<std::size_t>(range)],
-                                    near_[thread]);
-      });
+      clock_.time(Stage::kParticleCollisions,
+                  [&] { resolve_particle_collisions(s, b, state.sets[s], at, near_[thread]); });
+      if (tally_.watches_planes()) tally_.before_move(state.sets[s], at);
       clock_.time(Stage::kPositions, [&] {
         const BlockExtremes e = model_.kernels.advance(p, step);
         seen.largest_cells = std::max(seen.largest_cells, e.largest_cells);
@@ -244,6 +255,8 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
         seen.finite = seen.finite && e.finite;
         seen.collapsed = seen.collapsed || e.collapsed;
       });
+      if (tally_.watches_planes())
+        tally_.after_move(state.sets[s], at, static_cast<double>(model_.materials[s].mass), b);
     }
     return seen;
   };
@@ -257,8 +270,8 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
 }
 
 template <class Real>
-void Stepper<Real>::resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
-                                                std::vector<std::uint32_t>& near) {
+void Stepper<Real>::resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
+                                                const BlockRange& range, std::vector<std::uint32_t>& near) {
   const Scene& scene = model_.scene;
   const double h = scene.spacing;
   const int dim = scene.dimension;
@@ -272,16 +285,19 @@ void Stepper<Real>::resolve_particle_collisions(ParticleSet<Real>& set, const Bl
   obstacles_.find_near(0.5 * (low + high), 0.5 * (high - low).norm(), near);
   const bool walls = model_.walls.near(low, high, 0);
   if (near.empty() && !walls) return;
+  const auto mass = static_cast<double>(model_.materials[set].mass);
+  const ContactSink sink = tally_.point_sink(block);
   for (int i = 0; i < range.count; ++i) {
     const auto t = range.tile_of(i);
     const int lane = i % kTile;
-    const Vec3 x = set.position(t, lane);
-    Vec3 v = set.velocity(t, lane);
-    bool changed = obstacles_.resolve(near, x, v);
-    if (walls) changed = model_.walls.resolve(x, v) || changed;
+    const Vec3 x = points.position(t, lane);
+    Vec3 v = points.velocity(t, lane);
+    const double own_mass = mass * points.share(t, lane);
+    bool changed = obstacles_.resolve(near, x, v, own_mass, sink);
+    if (walls) changed = model_.walls.resolve(x, v, own_mass, sink) || changed;
     if (!changed) continue;
     for (int a = 0; a < dim; ++a)
-      set.template values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(v[a]);
+      points.template values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(v[a]);
   }
 }
 
@@ -318,9 +334,9 @@ bool Stepper<Real>::resampling_due(double before, double after) const {
 }
 
 template <class Real>
-std::uint64_t Stepper<Real>::avoid_void(State<Real>& state) {
+void Stepper<Real>::avoid_void(State<Real>& state) {
   state.sorted = false;
-  const std::uint64_t dropped = sort_when_drifted(state);
+  sort_when_drifted(state);
   clock_.time(Stage::kAvoidVoid, [&] {
     resample::Resampler resampler = model_.resampler;
     resampler.threads = threads_;
@@ -336,7 +352,6 @@ std::uint64_t Stepper<Real>::avoid_void(State<Real>& state) {
     state.resampled.momentum_change += done.momentum_change.norm();
     state.sorted = done.inserted == 0 && done.merged == 0;
   });
-  return dropped;
 }
 
 template <class Real>

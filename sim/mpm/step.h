@@ -6,6 +6,7 @@
 #include "sim/collide/obstacles.h"
 #include "sim/mpm/block_grid.h"
 #include "sim/mpm/levels.h"
+#include "sim/mpm/probe_tally.h"
 #include "sim/mpm/resample/avoid_void.h"
 #include "sim/particles/particle_set.h"
 #include "sim/report/stage_clock.h"
@@ -19,6 +20,7 @@ struct Model {
 
   Scene scene;
   Kernels<Real> kernels;
+  PointKernels<Real> point;
   std::vector<MaterialConstants<Real>> materials;
   CellBounds bounds;
   Walls walls;
@@ -33,6 +35,17 @@ struct ResampleTotals {
   double momentum_change = 0;  ///< sum over all resamplings of |change of momentum|, kg m/s
 };
 
+/// What an emitter has done so far; plain data, saved as it stands.
+struct EmitterState {
+  std::uint64_t releases = 0;  ///< copies, or layers of a stream
+  std::uint64_t points = 0;    ///< emitted
+  std::uint64_t delayed = 0;   ///< releases that found their place occupied when they were due
+  double waited = 0;           ///< s, of all releases
+  double last = 0;             ///< s: a stream's last layer came then, moved on by what it has waited
+  double travelled = 0;        ///< s, in which a stream's lattice has moved
+  bool waiting = false;        ///< a release is due now, and its place is occupied
+};
+
 /// What a checkpoint saves.
 template <class Real>
 struct State {
@@ -42,9 +55,13 @@ struct State {
   double drift = 0;                     ///< cells, most that any point can have moved since the last sort
   double max_speed = 0;                 ///< m/s, of any point
   bool sorted = false;
-  std::uint32_t next_id = 0;  ///< of the next point that is inserted; ids are never used again
+  std::uint32_t next_id = 0;  ///< of the next new point; ids are never used again
   ResampleTotals resampled;
-  std::vector<double> since_recovery;  ///< s, one a material: time whose recovery is still to come
+  std::vector<double> since_recovery;         ///< s, one a material: time whose recovery is still to come
+  std::vector<EmitterState> emitters;         ///< one an emitter of the scene
+  std::vector<std::uint64_t> points_emitted;  ///< one a material
+  std::vector<std::uint64_t> points_left;     ///< one a material: left an open domain
+  std::vector<ProbeState> probes;             ///< one a probe of the scene
 };
 
 /// One material's points in range `range` of its set.
@@ -67,8 +84,7 @@ struct StepResult {
   double largest_cells = 0;  ///< largest |v| dt / h of any point along an axis
   double max_speed = 0;      ///< m/s
   bool finite = true;
-  bool collapsed = false;     ///< some J <= 0
-  std::uint64_t dropped = 0;  ///< points that left an open domain
+  bool collapsed = false;  ///< some J <= 0
   SolveFigures solve;
 };
 
@@ -82,12 +98,15 @@ class Stepper {
   Stepper(const Model<Real>& model, int threads);
   ~Stepper();
 
+  /// Lets in what the scene's emitters release at the state's time; call before each step's length is chosen.
+  void emit(State<Real>& state);
+
   /// Advances `state` by dt (s). The result says whether the state is still sound; the caller decides.
   StepResult step(State<Real>& state, double dt);
 
-  /// Sorts points and rebuilds the grid if points may have left their blocks' buffers. Returns points
-  /// dropped.
-  std::uint64_t sort_when_drifted(State<Real>& state);
+  /// Sorts points and rebuilds the grid if points may have left their blocks' buffers; counts those that left
+  /// an open domain.
+  void sort_when_drifted(State<Real>& state);
 
   /// Drops the grid, so that the next step makes it anew; after a restore.
   void forget_grid() {
@@ -120,14 +139,15 @@ class Stepper {
   void resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near);
   StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
   void plan_recovery(State<Real>& state, double dt);
-  void resolve_particle_collisions(ParticleSet<Real>& set, const BlockRange& range,
-                                   std::vector<std::uint32_t>& near);
+  void resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
+                                   const BlockRange& range, std::vector<std::uint32_t>& near);
   [[nodiscard]] bool resampling_due(double before, double after) const;
-  std::uint64_t avoid_void(State<Real>& state);
+  void avoid_void(State<Real>& state);
 
   const Model<Real>& model_;
   int threads_;
   Obstacles obstacles_;
+  ProbeTally tally_;
   BlockGrid<Real> grid_;
   std::unique_ptr<VelocitySolver<Real>> solver_;  // null in explicit scenes
   StageClock clock_;

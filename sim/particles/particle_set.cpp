@@ -89,7 +89,7 @@ template <class Real>
 void ParticleSet<Real>::restore(const char*& from, const char* end) {
   const auto get = [&](void* to, std::size_t n) {
     if (static_cast<std::size_t>(end - from) < n) throw std::runtime_error("The checkpoint ends too early.");
-    std::memcpy(to, from, n);
+    if (n > 0) std::memcpy(to, from, n);  // an empty set has no memory to copy to
     from += n;
   };
   std::uint64_t head[5];

@@ -39,6 +39,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   const bool semi_implicit = scene.numerics.integration == Integration::kSemiImplicit;
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
+    if (scene.emitters.empty() && stage == Stage::kEmit) continue;
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
     if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
     if (!tears &&
@@ -154,13 +155,14 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
   plan.scalars = planned_scalars(scene);
 
-  const std::vector<std::uint64_t> points = count_points(scene);
+  const PointCounts points = count_points(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const std::vector<Field> fields = planned_fields(scene, scene.materials[i]);
     const TileLayout layout = layout_of(scene, fields);
     PlannedMaterial m;
     m.name = scene.materials[i].name;
-    m.points = points[i];
+    m.points = points.at_start[i] + points.emitted[i];
+    m.points_emitted = points.emitted[i];
     for (const Field f : fields) {
       const int at = static_cast<int>(f);
       m.fields.push_back({to_string(f), layout.components[at] * layout.component_bytes[at]});
@@ -172,6 +174,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
     if (scene.numerics.integration == Integration::kSemiImplicit)
       m.numerical_viscosity += density * missing_diffusion(scene, plan.time_step);
     plan.points += m.points;
+    plan.points_emitted += m.points_emitted;
     plan.materials.push_back(std::move(m));
   }
   plan.stages = planned_stages(scene);

@@ -68,6 +68,7 @@ std::string to_json(const Plan& plan) {
     for (const PlannedField& f : m.fields) fields.push_back({{"name", f.name}, {"bytes", f.bytes}});
     materials.push_back({{"name", m.name},
                          {"points", m.points},
+                         {"points_emitted", m.points_emitted},
                          {"bytes_per_point", m.bytes_per_point},
                          {"fields", fields},
                          {"wave_speed", m.wave_speed},
@@ -78,6 +79,7 @@ std::string to_json(const Plan& plan) {
   Json json = {{"lather_plan", 1},
                {"choices", {{"kernel_level", to_string(plan.choices.kernel_level)}}},
                {"points", plan.points},
+               {"points_emitted", plan.points_emitted},
                {"frames", plan.frames},
                {"steps", plan.steps},
                {"time_step", plan.time_step},

@@ -7,6 +7,7 @@
 namespace lather {
 
 enum class Stage : int {
+  kEmit,                ///< points of the releases that are due; only with emitters
   kSort,                ///< points by block, and the grid's blocks; only when points have drifted
   kDetectTearing,       ///< 2
   kRasterize,           ///< 1, 3: mass, momentum and internal forces to block buffers
@@ -23,9 +24,10 @@ enum class Stage : int {
   kPositions,           ///< 14
   kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 15;
+inline constexpr int kStageCount = 16;
 
-inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
+inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
+                                                                     "sort",
                                                                      "detect tearing",
                                                                      "rasterize",
                                                                      "limit forces",

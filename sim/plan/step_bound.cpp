@@ -11,9 +11,12 @@ double wave_speed(const HerschelBulkleyParameters& law) {
 
 double step_bound(const Scene& scene) {
   double fastest = 0;
-  for (const Body& body : scene.bodies)
+  const auto count = [&](const std::string& material) {
     for (const Material& m : scene.materials)
-      if (m.name == body.material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+      if (m.name == material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+  };
+  for (const Body& body : scene.bodies) count(body.material);
+  for (const Emitter& emitter : scene.emitters) count(emitter.material);
   return scene.spacing / fastest;
 }
 

@@ -14,12 +14,39 @@ struct StageTime {
   double seconds = 0;  ///< summed over threads
 };
 
+/// What an emitter has done.
+struct EmitterReport {
+  std::string name;
+  std::uint64_t releases = 0;  ///< copies, or layers of a stream
+  std::uint64_t points = 0;
+  std::uint64_t delayed = 0;  ///< releases that found their place occupied when they were due
+  double waited = 0;          ///< s, of all of them
+  bool waiting = false;       ///< a release is due and still waits
+};
+
+/// The samples of one probe.
+struct ProbeSeries {
+  struct Column {
+    std::string quantity;
+    std::string unit;
+  };
+  std::string name;
+  std::string type;  ///< as in the scene
+  std::vector<Column> columns;
+  std::vector<double> times;   ///< s
+  std::vector<double> values;  ///< row by row, a row a time
+};
+
 /// What one frame measured of the state, sums taken in a fixed order in double precision.
 struct FrameMeasure {
   int frame = 0;
   double time = 0;  ///< s
   std::uint64_t step = 0;
   std::uint64_t points = 0;
+  std::uint64_t points_emitted = 0;  ///< since the start, by emitters
+  std::uint64_t points_left = 0;     ///< since the start, out of an open domain
+  double mass_emitted = 0;           ///< kg
+  double mass_left = 0;              ///< kg
   std::uint64_t fingerprint =
       0;            ///< of all bits of all points: equal for any number of threads and after a resume
   double mass = 0;  ///< kg
@@ -84,14 +111,17 @@ struct Report {
   double largest_cfl = 0;         ///< speed dt / spacing, dimensionless
   double smallest_time_step = 0;  ///< s
   double largest_time_step = 0;   ///< s
-  std::uint64_t points_removed = 0;
-  double mass_removed = 0;  ///< kg
-  SolverTotals solver;      ///< of an explicit run: all 0
+  SolverTotals solver;            ///< of an explicit run: all 0
+  std::vector<EmitterReport> emitters;
+  std::vector<ProbeSeries> probes;
   std::vector<StageTime> stages;
   std::vector<FrameMeasure> frames;
   std::vector<std::string> warnings;
 };
 
 [[nodiscard]] std::string to_json(const Report& report);
+
+/// All samples as CSV with the columns probe, quantity, unit, time (s), value.
+[[nodiscard]] std::string probes_csv(const std::vector<ProbeSeries>& probes);
 
 }  // namespace lather

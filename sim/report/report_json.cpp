@@ -23,8 +23,12 @@ Json frame(const FrameMeasure& m) {
                {"time", m.time},
                {"step", m.step},
                {"points", m.points},
+               {"points_emitted", m.points_emitted},
+               {"points_left", m.points_left},
                {"fingerprint", hex(m.fingerprint)},
                {"mass", m.mass},
+               {"mass_emitted", m.mass_emitted},
+               {"mass_left", m.mass_left},
                {"momentum", vector(m.momentum)},
                {"angular_momentum", vector(m.angular_momentum)},
                {"center_of_mass", vector(m.center_of_mass)},
@@ -67,11 +71,34 @@ Json solver(const SolverTotals& s) {
           {"convex", s.convex}};
 }
 
+Json probe(const ProbeSeries& p) {
+  Json columns = Json::array({{{"quantity", "time"}, {"unit", "s"}}});
+  for (const ProbeSeries::Column& c : p.columns)
+    columns.push_back({{"quantity", c.quantity}, {"unit", c.unit}});
+  Json samples = Json::array();
+  for (std::size_t i = 0; i < p.times.size(); ++i) {
+    Json row = Json::array({p.times[i]});
+    for (std::size_t c = 0; c < p.columns.size(); ++c) row.push_back(p.values[i * p.columns.size() + c]);
+    samples.push_back(std::move(row));
+  }
+  return {{"name", p.name}, {"type", p.type}, {"columns", columns}, {"samples", samples}};
+}
+
 }  // namespace
 
 std::string to_json(const Report& r) {
   Json stages = Json::array();
   for (const StageTime& s : r.stages) stages.push_back({{"name", s.name}, {"seconds", s.seconds}});
+  Json emitters = Json::array();
+  for (const EmitterReport& e : r.emitters)
+    emitters.push_back({{"name", e.name},
+                        {"releases", e.releases},
+                        {"points", e.points},
+                        {"delayed", e.delayed},
+                        {"waited", e.waited},
+                        {"waiting", e.waiting}});
+  Json probes = Json::array();
+  for (const ProbeSeries& p : r.probes) probes.push_back(probe(p));
   Json frames = Json::array();
   for (const FrameMeasure& m : r.frames) frames.push_back(frame(m));
   const Json json = {{"lather_report", 1},
@@ -91,9 +118,9 @@ std::string to_json(const Report& r) {
                      {"point_steps_per_second", r.point_steps_per_second},
                      {"largest_cfl", r.largest_cfl},
                      {"time_step", {{"smallest", r.smallest_time_step}, {"largest", r.largest_time_step}}},
-                     {"points_removed", r.points_removed},
-                     {"mass_removed", r.mass_removed},
                      {"solver", solver(r.solver)},
+                     {"emitters", emitters},
+                     {"probes", probes},
                      {"stages", stages},
                      {"frames", frames},
                      {"warnings", r.warnings}};

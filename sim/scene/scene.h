@@ -14,6 +14,7 @@
 #include "sim/material/tearing_parameters.h"
 #include "sim/math/vec.h"
 #include "sim/scene/look.h"
+#include "sim/scene/probe.h"
 #include "sim/shape/motion.h"
 #include "sim/shape/shape.h"
 
@@ -50,6 +51,20 @@ struct Body {
   Vec3 spin_deg = Vec3::Zero();  ///< angular velocity about the body's centre of mass, degrees/s
   Mat3 velocity_gradient =
       Mat3::Zero();  ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
+};
+
+/// A source of material: it releases copies of its shape, or lets material stream through it.
+struct Emitter {
+  std::string name;
+  std::string material;
+  ShapePtr shape;
+  Vec3 velocity = Vec3::Zero();  ///< m/s, of what is released
+  Vec3 spin_deg = Vec3::Zero();  ///< angular velocity about each copy's centre of mass, degrees/s
+  double start = 0;              ///< s, of the first release
+  double interval = 0;           ///< s, between releases; 0 with a single one
+  int count = 1;                 ///< releases
+  bool stream = false;           ///< material comes in through the shape at `velocity`, from start to end
+  double end = 1e30;             ///< s, of a stream
 };
 
 struct Obstacle {
@@ -103,7 +118,9 @@ struct Scene {
   int points_per_cell = 0;       ///< n^dimension; default 8 in 3D, 4 in 2D
   std::vector<Material> materials;
   std::vector<Body> bodies;
+  std::vector<Emitter> emitters;
   std::vector<Obstacle> obstacles;
+  std::vector<Probe> probes;
   std::uint64_t seed = 0;
   double jitter = 0;  ///< of the initial points, fraction of their distance, 0 … 1
   Numerics numerics;

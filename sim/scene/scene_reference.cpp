@@ -72,12 +72,20 @@ std::string scene_reference() {
   out += section(tables::domain().info()) + section(tables::material().info());
   out += section(tables::herschel_bulkley().info(), "### ");
   out += section(tables::tearing().info(), "### ");
-  out += section(tables::body().info()) + section(tables::obstacle().info());
+  out += section(tables::body().info()) + section(tables::emitter().info());
+  out += section(tables::obstacle().info());
   out += family("shapes",
                 "Every shape has a `type` and takes the keys of its placement beside its own:\n\n" +
                     rows(tables::shapes().common()),
                 tables::shapes());
   out += family("motions", "Every motion has a `type`.", tables::motions());
+  out += family(
+      "probes",
+      "Every probe has a `type` and takes these keys beside its own. Probes do not change the run: its steps "
+      "and its bits are the same with and without them. Samples stand in the report and in "
+      "`probes.csv`.\n\n" +
+          rows(tables::probes().common()),
+      tables::probes());
   out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ");
   out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());

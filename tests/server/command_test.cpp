@@ -22,6 +22,13 @@ TEST_F(SceneCommand, RunWritesFramesReportAndPlan) {
   EXPECT_EQ(Json::parse(read(out() / "plan.json")).at("frames"), 4);
 }
 
+TEST_F(SceneCommand, RunWritesProbesAsCsv) {
+  const std::string probes = R"('/probes=[{"type": "walls", "name": "box"}]')";
+  ASSERT_EQ(run("run " + scene_file() + " --threads 1 --out " + out().string() + " --set " + probes), 0)
+      << said();
+  EXPECT_EQ(read(out() / "probes.csv").rfind("probe,quantity,unit,time,value\nbox,force_x,N,", 0), 0U);
+}
+
 TEST_F(SceneCommand, BadInputEndsWithTwoAndNamesThePlace) {
   EXPECT_EQ(run("run " + scene_file() + " --set /spacing=-1 --out " + out().string()), 2);
   EXPECT_NE(said().find("/spacing"), std::string::npos) << said();
