@@ -57,9 +57,9 @@ TEST(Skin, DoesNotGrowWhenPointsLoseTheirOrder) {
 }
 
 // The points of the lattice ball reach from 11 to 12 distances; a smooth surface stays within a distance of
-// both. Where a layer of the lattice ends, the surface climbs one distance over about two, 27 degrees, and the
-// points' jitter (a quarter of a distance up or down, from one to the next) adds 14: the normals stay within 45
-// degrees of the sphere's.
+// both. Where a layer of the lattice ends, the surface climbs one distance over about two, 27 degrees, and
+// the points' jitter (a quarter of a distance up or down, from one to the next) adds 14: the normals stay
+// within 45 degrees of the sphere's.
 TEST(Skin, OfABallIsClosedRoundAndFacesOutward) {
   const TriangleMesh mesh = skin_of(ball(12, 0.5), kDistance, 2);
   MeshData data;
