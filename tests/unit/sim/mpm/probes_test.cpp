@@ -52,6 +52,9 @@ struct Variant {
   const char* kernel;
   int dimension;
 };
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.name;
+}
 
 class ProbeVariants : public testing::TestWithParam<Variant> {};
 
