@@ -48,14 +48,12 @@ struct Plasticity {
 
 Plasticity middle_plasticity(const Simulation& simulation, double half, double tear_threshold) {
   const Frame frame = simulation.frame();
-  const std::vector<float>* values = nullptr;
-  for (const PointScalar& s : frame.points.scalars)
-    if (s.name == "plasticity") values = &s.values;
+  const std::vector<float>& values = frame.points.scalars.front().values;  // all that the scene asks for
   Plasticity sum;
   double count = 0;
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     if (std::abs(static_cast<double>(frame.points.position[i][1])) >= half) continue;
-    const auto plasticity = static_cast<double>((*values)[i]);
+    const auto plasticity = static_cast<double>(values[i]);
     sum.mean += plasticity;
     sum.torn += plasticity > tear_threshold ? 1 : 0;
     ++count;
