@@ -1,5 +1,5 @@
-// The dropped spheres and penguins [Foam Fig. 13]: oobleck rebounds, then flows; its Bingham twin, alike in all
-// but the flow index, flows at once.
+// The dropped spheres and penguins [Foam Fig. 13]: oobleck rebounds, then flows; its Bingham twin, alike in
+// all but the flow index, flows at once.
 
 #include "tests/scenes/impact.h"
 

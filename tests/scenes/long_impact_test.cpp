@@ -1,7 +1,7 @@
 // The dropped spheres and penguins at the paper's size, from the impact to the rebound's top.
 //
-// The printed step is 5e-6 s. These runs take the step that the plan chooses, ten times as long, which the blend
-// per time allows, and resample at most 2 % of shear apart in a body that is sheared at 50/s.
+// The printed step is 5e-6 s. These runs take the step that the plan chooses, ten times as long, which the
+// blend per time allows, and resample at most 2 % of shear apart in a body that is sheared at 50/s.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,9 @@ Run drop(const std::string& name, double duration) {
   return run;
 }
 
-void expect_rebound(const Impact& impact) { EXPECT_GT(impact.climb, 0.05 * impact.drop_height); }
+void expect_rebound(const Impact& impact) {
+  EXPECT_GT(impact.climb, 0.05 * impact.drop_height);
+}
 
 void expect_splat(const Run& run) {
   EXPECT_LT(run.impact.climb, 0.01 * run.impact.drop_height);
@@ -35,9 +37,13 @@ void expect_splat(const Run& run) {
 }
 
 // Lands after 0.04 s.
-TEST(ImpactAtThePapersSize, OobleckSphereRebounds) { expect_rebound(drop("oobleck-sphere", 0.15).impact); }
+TEST(ImpactAtThePapersSize, OobleckSphereRebounds) {
+  expect_rebound(drop("oobleck-sphere", 0.15).impact);
+}
 
-TEST(ImpactAtThePapersSize, ViscoplasticSphereStays) { expect_splat(drop("viscoplastic-sphere", 0.15)); }
+TEST(ImpactAtThePapersSize, ViscoplasticSphereStays) {
+  expect_splat(drop("viscoplastic-sphere", 0.15));
+}
 
 TEST(ImpactAtThePapersSize, OobleckPenguinReboundsAndFlowsLater) {
   const Impact impact = drop("oobleck-penguin", 0.6).impact;
@@ -45,7 +51,9 @@ TEST(ImpactAtThePapersSize, OobleckPenguinReboundsAndFlowsLater) {
   EXPECT_LT(impact.final_height, 0.5 * impact.body_height);
 }
 
-TEST(ImpactAtThePapersSize, ViscoplasticPenguinStays) { expect_splat(drop("viscoplastic-penguin", 0.3)); }
+TEST(ImpactAtThePapersSize, ViscoplasticPenguinStays) {
+  expect_splat(drop("viscoplastic-penguin", 0.3));
+}
 
 }  // namespace
 }  // namespace lather::testing_support
