@@ -41,7 +41,7 @@ std::vector<Override> with_everything_on() {
                       {"type": "point", "name": "inside", "at": [0, 0.2, 0]},
                       {"type": "plane", "name": "gate", "point": [0.2, 0.4, 0.2], "normal": [0, 1, 0]}])"},
           {"/numerics/resampling", R"({"interval": 1e-3})"},
-          {"/numerics/subgrid_removal", R"({"interval": 1e-3, "anisotropy": 0.05})"},
+          {"/numerics/subgrid_removal", R"({"interval": 1e-3, "anisotropy": 0.2})"},
           {"/output/skin", R"(["ply"])"}};
 }
 
