@@ -31,11 +31,11 @@ Obstacle sheet(int layer, double rate, double h) {
 }
 
 /// Mean stresses over the points of the middle half of the gap.
-ShearStress middle_stress(const Simulation& simulation, double h) {
+ShearStress middle_stress(const Simulation& simulation, double half) {
   ShearStress sum;
   double count = 0;
   simulation.visit_points([&](const PointState& p) {
-    if (std::abs(p.position.y()) >= kGap / 4.0 * h) return;
+    if (std::abs(p.position.y()) >= half) return;
     const ShearStress s = shear_stress(p.stress.data());
     sum.tau_xy += s.tau_xy;
     sum.n1 += s.n1;
@@ -73,6 +73,10 @@ Scene shear_box_scene(const HerschelBulkleyParameters& law, const StartUpRequest
   return scene;
 }
 
+double middle_half(const Scene& shear_box) {
+  return kGap / 4.0 * shear_box.spacing;
+}
+
 StartUp start_up_in_box(const HerschelBulkleyParameters& law, const StartUpRequest& request, int threads) {
   check(request, kMostBoxShear);
   const Scene scene = shear_box_scene(law, request);
@@ -82,7 +86,7 @@ StartUp start_up_in_box(const HerschelBulkleyParameters& law, const StartUpReque
   for (int i = 0; i <= request.steps; ++i) {
     run_to(*simulation, i);
     out.t.push_back(request.time * i / request.steps);
-    out.stress.push_back(middle_stress(*simulation, scene.spacing));
+    out.stress.push_back(middle_stress(*simulation, middle_half(scene)));
   }
   return out;
 }

@@ -12,6 +12,9 @@ namespace lather::study {
 /// are chosen so that a stable step shears by about 5e-4: a scene of the law's own time scale.
 [[nodiscard]] Scene shear_box_scene(const HerschelBulkleyParameters& law, const StartUpRequest& request);
 
+/// The stress is read where |y| is less than this, m: the middle half of the gap.
+[[nodiscard]] double middle_half(const Scene& shear_box);
+
 /// Longest start-up in the box as shear, dimensionless: a shear of 1 takes about 1500 steps of 2304 points.
 inline constexpr double kMostBoxShear = 100;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct SimpleShearRun {
   [[nodiscard]] std::string name() const;
 };
 std::vector<SimpleShearRun> simple_shear_runs();
+inline void PrintTo(const SimpleShearRun& run, std::ostream* out) {
+  *out << run.name();
+}
 
 using Mat9 = std::array<double, 9>;  ///< row by row
 

@@ -7,6 +7,12 @@
 #include "sim/study/verify/case.h"
 
 namespace lather::study {
+
+/// For GoogleTest, which would print the case's bytes.
+inline void PrintTo(const VerificationCase& verification, std::ostream* out) {
+  *out << verification.name;
+}
+
 namespace {
 
 std::vector<VerificationCase> quick_cases() {

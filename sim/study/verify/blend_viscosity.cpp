@@ -86,9 +86,9 @@ std::vector<Finding> verify_blend_viscosity(int threads) {
   // The formula is the first term of a series in (k h)^2; the next is (k h)^2/6: 0.64 % at 32 cells a wave.
   return {{"viscosity against the formula, relative, L/h = 8 16 32: the finest", error.back(), 0.01,
            observed_order(spacing, error), 1.8},
-          {"blend per step: quarter of the step, viscosity over four times as much, less 1",
+          {"blend per step: at a quarter of the step, over 4 times as much, less 1",
            std::abs(per_step / (4 * long_step) - 1), 0.01},
-          {"blend per time: quarter of the step, viscosity over the same, less 1",
+          {"blend per time: at a quarter of the step, over as much, less 1",
            std::abs(per_time / long_step - 1), 0.025}};
 }
 

@@ -6,12 +6,14 @@
 #include "sim/study/verify/resting_block.h"
 #include "sim/study/verify/slump.h"
 #include "sim/study/verify/standing_wave.h"
+#include "sim/study/verify/tearing.h"
 
 namespace lather::study {
 
 const std::vector<VerificationCase>& verification_cases() {
   static const std::vector<VerificationCase> cases = {
       {"law", "The law at single points is what its equations say", true, verify_law},
+      {"tearing", "Single points tear and recover as their equations say", true, verify_tearing},
       {"couette", "Start-up of shear in the Maxwell limit follows its exact transient", true, verify_couette},
       {"standing-wave", "An elastic wave keeps its frequency and, with FLIP, its amplitude", true,
        verify_standing_wave},
@@ -21,8 +23,12 @@ const std::vector<VerificationCase>& verification_cases() {
        verify_film},
       {"incline", "A block on an incline slides or sticks as Coulomb says", true, verify_incline},
       {"resting-block", "A block below yield does not creep in single precision", true, verify_resting_block},
+      {"tearing-box", "A sheared box tears when it should, and recovers at the rate it should", true,
+       verify_tearing_box},
       {"film-fine", "The film's profile converges at finer spacings", false, verify_fine_film},
-      {"slump", "A cylinder slumps to where its weight no longer makes it yield", false, verify_slump}};
+      {"slump", "A cylinder slumps to where its weight no longer makes it yield", false, verify_slump},
+      {"spreading", "A cylinder of low yield stress spreads to the radius that its floor can hold", false,
+       verify_spreading}};
   return cases;
 }
 
