@@ -16,6 +16,7 @@ constexpr int kRunnerFd = 3;
 struct AllOptions {
   RunOptions run;
   RenderOptions render;
+  SheetOptions sheet;
   PlanOptions plan;
   ServeOptions serve;
   AgentOptions worker;
@@ -68,6 +69,21 @@ void add_render(CLI::App& program, AllOptions& all) {
   add_backend(command, render.render_backend);
   command.add_flag("--json", render.json, "events as JSON lines on stdout");
   command.callback([&all] { all.exit_code = render_command(all.render); });
+}
+
+void add_sheet(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "sheet", "Put pictures of runs on one sheet, a row a run, from first to last frame");
+  SheetOptions& sheet = all.sheet;
+  command.add_option("DIR", sheet.runs, "what 'lather run' made")->required();
+  command.add_option("--pictures", sheet.pictures, "of each run")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--width", sheet.width, "of a picture on the sheet, px")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  command.add_option("--out", sheet.out, "the sheet, a PNG file")->required();
+  command.callback([&all] { all.exit_code = sheet_command(all.sheet); });
 }
 
 void add_plan(CLI::App& program, AllOptions& all) {
@@ -216,6 +232,7 @@ int parse_and_run(int argc, char** argv) {
   AllOptions all;
   add_run(program, all);
   add_render(program, all);
+  add_sheet(program, all);
   add_plan(program, all);
   add_serve(program, all);
   add_worker(program, all);

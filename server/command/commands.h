@@ -43,6 +43,14 @@ struct RenderOptions {
 };
 int render_command(const RenderOptions& options);
 
+struct SheetOptions {
+  std::vector<std::filesystem::path> runs;  ///< what `lather run` made, a row each
+  int pictures = 5;                         ///< of each run, from its first frame to its last
+  int width = 240;                          ///< of a picture on the sheet, px
+  std::filesystem::path out;                ///< PNG
+};
+int sheet_command(const SheetOptions& options);
+
 struct PlanOptions {
   SceneSource scene;
   bool json = false;

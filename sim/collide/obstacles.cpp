@@ -1,18 +1,32 @@
 #include "sim/collide/obstacles.h"
 
 #include <cmath>
+#include <limits>
+
+#include "sim/shape/unbounded.h"
 
 namespace lather {
 
 Obstacles::Obstacles(const Scene& scene, double spacing)
     : scene_obstacles_(scene.obstacles), normal_step_(0.01 * spacing), flat_(scene.dimension == 2) {
-  for (const Obstacle& o : scene_obstacles_) all_.push_back({&o, {}, Vec3::Zero(), Mat3::Zero()});
+  // Obstacles may move, so what the domain cuts off of a half space at first may come in later.
+  const Box3 everywhere{Vec3::Constant(-1e9), Vec3::Constant(1e9)};
+  for (const Obstacle& o : scene_obstacles_) {
+    const Box3 box = bounds(*o.shape, everywhere);
+    Placed placed;
+    placed.source = &o;
+    placed.middle = box.center();
+    placed.reach =
+        is_unbounded(*o.shape) ? std::numeric_limits<double>::infinity() : 0.5 * box.extent().norm();
+    all_.push_back(placed);
+  }
 }
 
 void Obstacles::place(double time, double dt) {
   for (Placed& o : all_) {
     const Motion& motion = o.source->motion;
     o.pose = pose_at(motion, time);
+    o.place = o.pose.rotation * o.middle + o.pose.translation;
     if (std::holds_alternative<AtRest>(motion)) continue;
     // A rigid velocity is affine in x: four samples hold all of it.
     const double middle = time + 0.5 * dt;
@@ -24,8 +38,12 @@ void Obstacles::place(double time, double dt) {
 
 void Obstacles::find_near(const Vec3& center, double radius, std::vector<std::uint32_t>& near) const {
   near.clear();
-  for (std::uint32_t i = 0; i < all_.size(); ++i)
-    if (distance(*all_[i].source->shape, to_local(all_[i], center)) < radius) near.push_back(i);
+  for (std::uint32_t i = 0; i < all_.size(); ++i) {
+    const Placed& o = all_[i];
+    const double far = o.reach + radius;
+    if ((center - o.place).squaredNorm() > far * far) continue;
+    if (distance(*o.source->shape, to_local(o, center)) < radius) near.push_back(i);
+  }
 }
 
 std::optional<Obstacles::Touch> Obstacles::touch(std::uint32_t obstacle, const Vec3& x) const {

@@ -54,6 +54,9 @@ class Obstacles {
 
   struct Placed {
     const Obstacle* source;
+    Vec3 middle;                // of a ball around the shape, in its own frame
+    double reach;               // m, radius of that ball; infinite for a shape without bounds
+    Vec3 place = Vec3::Zero();  // of the ball's middle at the present time
     Pose pose;
     Vec3 velocity_at_origin = Vec3::Zero();
     Mat3 velocity_gradient = Mat3::Zero();

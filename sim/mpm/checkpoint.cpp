@@ -69,7 +69,7 @@ void for_figures(Measure& m, const Visit& visit) {
       visit(m.gravity_energy);
   visit(m.max_speed), visit(m.min_volume_ratio), visit(m.max_volume_ratio), visit(m.weak_fraction);
   visit(m.interior_nodes), visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged),
-      visit(m.resampling_momentum);
+      visit(m.resampling_momentum), visit(m.points_removed), visit(m.mass_removed);
   visit(m.density_mean), visit(m.density_min), visit(m.density_max), visit(m.density_within_5_percent);
   visit(m.skin_volume);
   visit(m.pieces), visit(m.largest_piece_share), visit(m.second_piece_share);
@@ -93,7 +93,8 @@ void for_counts(AnyState& state, const Visit& visit) {
     visit(e.releases), visit(e.points), visit(e.delayed), visit(e.waited), visit(e.last), visit(e.travelled),
         visit(e.waiting);
   for (auto& count : state.points_emitted) visit(count);
-  for (auto& count : state.points_left) visit(count);
+  for (auto& left : state.left) visit(left.points), visit(left.shares);
+  visit(state.removed.points), visit(state.removed.mass);
   for (auto& p : state.probes) {
     visit(p.sample), visit(p.since), visit(p.passed), visit(p.passed_before);
     for (int a = 0; a < 3; ++a) visit(p.load.impulse[a]), visit(p.load.moment[a]);

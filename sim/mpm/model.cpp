@@ -32,7 +32,9 @@ MaterialConstants<Real> material_constants(const Scene& scene, const Material& m
 template <class Real>
 resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds,
                                    const std::vector<MaterialConstants<Real>>& materials) {
-  resample::Resampler r{resample::Lattice(plan.scene), bounds, {}, {}, {}, {}, 1};
+  resample::Resampler r;
+  r.lattice = resample::Lattice(plan.scene);
+  r.bounds = bounds;
   for (const MaterialConstants<Real>& m : materials) r.mass.push_back(static_cast<double>(m.mass));
   const bool cubic = plan.scene.numerics.kernel == Kernel::kCubic;
   const PointKernels<double>& point = kernel_table<double>(plan.choices.kernel_level).point;
@@ -40,8 +42,19 @@ resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds,
     double derivative[4];
     return weights(cubic, fraction, weight, derivative);
   };
+  for (const Material& m : plan.scene.materials) r.tears.tear_threshold.push_back(m.tearing.tear_threshold);
+  r.tears.plasticity = point.tearing.plasticity;
   if (plan.scene.numerics.resampling) r.velocity = plan.scene.numerics.resampling->velocity;
   return r;
+}
+
+resample::SubgridSearch subgrid_search(const Scene& scene, const resample::Resampler& resampler) {
+  resample::SubgridSearch search;
+  search.thresholds = scene.numerics.subgrid_removal.value_or(SubgridRemoval{});
+  search.tear_threshold = resampler.tears.tear_threshold;
+  search.mass = resampler.mass;
+  search.weights = resampler.weights;
+  return search;
 }
 
 }  // namespace
@@ -55,6 +68,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   kernels = table.step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
   for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
   resampler = make_resampler(plan, bounds, materials);
+  removal = subgrid_search(scene, resampler);
   // See kHomeShift. A little less, for the rounding of sums of displacements.
   drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;
 }

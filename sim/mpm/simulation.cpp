@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include "sim/mpm/checkpoint.h"
 #include "sim/mpm/density.h"
@@ -45,7 +44,7 @@ class MpmSimulation final : public Simulation {
     });
     state_.emitters.resize(scene.emitters.size());
     state_.points_emitted.assign(scene.materials.size(), 0);
-    state_.points_left.assign(scene.materials.size(), 0);
+    state_.left.resize(scene.materials.size());
     state_.probes = first_probe_states(scene);
     report_.probes = empty_probe_series(scene);
     report_.scene_name = scene.name;
@@ -174,21 +173,20 @@ class MpmSimulation final : public Simulation {
     s.convex += solve.convex ? 1 : 0;
   }
 
-  /// Mass of so many points of each material, kg.
-  [[nodiscard]] double mass_of(const std::vector<std::uint64_t>& points) const {
-    double mass = 0;
-    for (std::size_t m = 0; m < points.size(); ++m)
-      mass += static_cast<double>(points[m]) * static_cast<double>(model_.materials[m].mass);
-    return mass;
-  }
-
+  /// What came in and went out since the start.
   void report_flows(FrameMeasure& m) {
-    m.points_emitted =
-        std::accumulate(state_.points_emitted.begin(), state_.points_emitted.end(), std::uint64_t{0});
-    m.mass_emitted = mass_of(state_.points_emitted);
-    m.points_left = std::accumulate(state_.points_left.begin(), state_.points_left.end(), std::uint64_t{0});
-    // What has left is what is no longer there; points do not weigh the same where they are resampled.
-    m.mass_left = m.points_left > 0 ? report_.frames.front().mass + m.mass_emitted - m.mass : 0;
+    for (std::size_t s = 0; s < state_.sets.size(); ++s) {
+      const auto mass = static_cast<double>(model_.materials[s].mass);
+      m.points_emitted += state_.points_emitted[s];
+      m.mass_emitted += mass * static_cast<double>(state_.points_emitted[s]);
+      m.points_left += state_.left[s].points;
+      m.mass_left += mass * state_.left[s].shares;
+    }
+    m.points_inserted = state_.resampled.inserted;
+    m.points_merged = state_.resampled.merged;
+    m.resampling_momentum = state_.resampled.momentum_change;
+    m.points_removed = state_.removed.points;
+    m.mass_removed = state_.removed.mass;
     report_.emitters.clear();
     for (std::size_t e = 0; e < state_.emitters.size(); ++e) {
       const EmitterState& own = state_.emitters[e];
@@ -217,9 +215,6 @@ class MpmSimulation final : public Simulation {
     m.step = state_.step;
     if (const auto voids = stepper_.interior_voids(state_))
       m.interior_voids = static_cast<std::int64_t>(*voids);
-    m.points_inserted = state_.resampled.inserted;
-    m.points_merged = state_.resampled.merged;
-    m.resampling_momentum = state_.resampled.momentum_change;
     report_flows(m);
     if (plan_.scene.wants_skin()) measure_skin(index, m);
     report_.frames.push_back(m);

@@ -12,6 +12,17 @@
 
 namespace lather::mpm {
 
+namespace {
+
+/// Once in every interval of simulated time: when a step from `before` to `after` crosses a multiple of it. A
+/// small tolerance makes steps that divide the interval hit the same multiples whatever their rounding.
+bool interval_ends(double interval, double before, double after) {
+  const auto intervals = [&](double time) { return std::floor(time / interval + 1e-6); };
+  return intervals(after) > intervals(before);
+}
+
+}  // namespace
+
 template <class Real>
 StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   sort_when_drifted(state);
@@ -34,7 +45,11 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   state.max_speed = result.max_speed;
   state.time += dt;
   ++state.step;
-  if (resampling_due(state.time - dt, state.time)) avoid_void(state);  // 15
+  const auto due = [&](const auto& activity) {
+    return activity && interval_ends(activity->interval, state.time - dt, state.time);
+  };
+  if (due(model_.scene.numerics.subgrid_removal)) remove_subgrid(state);  // 12
+  if (due(model_.scene.numerics.resampling)) avoid_void(state);           // 15
   return result;
 }
 
@@ -74,9 +89,12 @@ void Stepper<Real>::sort_when_drifted(State<Real>& state) {
   if (!sort && !grid_.point_blocks().empty()) return;
   clock_.time(Stage::kSort, [&] {
     if (sort) {
-      state.points_left.resize(state.sets.size());
-      for (std::size_t m = 0; m < state.sets.size(); ++m)
-        state.points_left[m] += state.sets[m].sort(model_.bounds, threads_);
+      state.left.resize(state.sets.size());
+      for (std::size_t m = 0; m < state.sets.size(); ++m) {
+        const Departures left = state.sets[m].sort(model_.bounds, threads_);
+        state.left[m].points += left.points;
+        state.left[m].shares += left.shares;
+      }
       state.sorted = true;
       state.drift = 0;
     }
@@ -323,14 +341,18 @@ double Stepper<Real>::volume_fraction(std::size_t block, int node) const {
          std::pow(model_.scene.spacing, model_.scene.dimension);
 }
 
-/// Once in every interval of simulated time: when a step crosses a multiple of it. A small tolerance makes
-/// steps that divide the interval hit the same multiples whatever their rounding.
 template <class Real>
-bool Stepper<Real>::resampling_due(double before, double after) const {
-  const auto& resampling = model_.scene.numerics.resampling;
-  if (!resampling) return false;
-  const auto intervals = [&](double time) { return std::floor(time / resampling->interval + 1e-6); };
-  return intervals(after) > intervals(before);
+void Stepper<Real>::remove_subgrid(State<Real>& state) {
+  state.sorted = false;
+  sort_when_drifted(state);
+  clock_.time(Stage::kRemoveSubgrid, [&] {
+    const resample::PointBins bins(state.sets, grid_, model_.bounds, model_.resampler.lattice, threads_);
+    const std::vector<std::uint32_t> found =
+        resample::find_subgrid_points(bins, state.sets, model_.removal, threads_);
+    state.removed.mass += resample::remove_points(found, bins, state.sets, model_.removal.mass);
+    state.removed.points += found.size();
+    state.sorted = found.empty();
+  });
 }
 
 template <class Real>

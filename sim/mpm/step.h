@@ -8,6 +8,7 @@
 #include "sim/mpm/levels.h"
 #include "sim/mpm/probe_tally.h"
 #include "sim/mpm/resample/avoid_void.h"
+#include "sim/mpm/resample/subgrid_removal.h"
 #include "sim/particles/particle_set.h"
 #include "sim/report/stage_clock.h"
 
@@ -24,8 +25,9 @@ struct Model {
   std::vector<MaterialConstants<Real>> materials;
   CellBounds bounds;
   Walls walls;
-  resample::Resampler resampler;  ///< without obstacles: the stepper has them
-  double drift_margin;            ///< cells that a point may move between two sorts
+  resample::Resampler resampler;    ///< without obstacles: the stepper has them
+  resample::SubgridSearch removal;  ///< of scenes that ask for it
+  double drift_margin;              ///< cells that a point may move between two sorts
 };
 
 /// What resampling did since the start.
@@ -33,6 +35,12 @@ struct ResampleTotals {
   std::uint64_t inserted = 0;
   std::uint64_t merged = 0;    ///< points that went into others
   double momentum_change = 0;  ///< sum over all resamplings of |change of momentum|, kg m/s
+};
+
+/// What subgrid removal took away since the start.
+struct RemovalTotals {
+  std::uint64_t points = 0;
+  double mass = 0;  ///< kg
 };
 
 /// What an emitter has done so far; plain data, saved as it stands.
@@ -57,10 +65,11 @@ struct State {
   bool sorted = false;
   std::uint32_t next_id = 0;  ///< of the next new point; ids are never used again
   ResampleTotals resampled;
+  RemovalTotals removed;
   std::vector<double> since_recovery;         ///< s, one a material: time whose recovery is still to come
   std::vector<EmitterState> emitters;         ///< one an emitter of the scene
   std::vector<std::uint64_t> points_emitted;  ///< one a material
-  std::vector<std::uint64_t> points_left;     ///< one a material: left an open domain
+  std::vector<Departures> left;               ///< one a material: left an open domain
   std::vector<ProbeState> probes;             ///< one a probe of the scene
 };
 
@@ -141,7 +150,7 @@ class Stepper {
   void plan_recovery(State<Real>& state, double dt);
   void resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
                                    const BlockRange& range, std::vector<std::uint32_t>& near);
-  [[nodiscard]] bool resampling_due(double before, double after) const;
+  void remove_subgrid(State<Real>& state);
   void avoid_void(State<Real>& state);
 
   const Model<Real>& model_;

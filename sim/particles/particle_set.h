@@ -17,6 +17,12 @@ struct PointSlot {
   int lane = 0;
 };
 
+/// Points that left an open domain.
+struct Departures {
+  std::uint64_t points = 0;
+  double shares = 0;  ///< their sum, exact (see Field::kShare)
+};
+
 /// The points of one material, in tiles sorted by block (tile_layout.h, block.h). Grown, sorted and compacted
 /// here only.
 template <class Real>
@@ -38,8 +44,8 @@ class ParticleSet {
   void place(const PointSlot& slot, const Vec3& position);
 
   /// Sorts by block, wraps periodic axes, drops points that left an open domain. Stable, same result for any
-  /// number of threads. Returns how many points were dropped.
-  std::uint64_t sort(const CellBounds& bounds, int threads);
+  /// number of threads. Returns what was dropped.
+  Departures sort(const CellBounds& bounds, int threads);
 
   [[nodiscard]] const std::vector<BlockRange>& ranges() const { return ranges_; }
   [[nodiscard]] const TileLayout& layout() const { return layout_; }

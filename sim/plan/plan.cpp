@@ -42,6 +42,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
     if (scene.emitters.empty() && stage == Stage::kEmit) continue;
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
     if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
+    if (stage == Stage::kRemoveSubgrid && !(tears && scene.numerics.subgrid_removal)) continue;
     if (!tears &&
         (stage == Stage::kDetectTearing || stage == Stage::kLimitForces || stage == Stage::kLimitDeformation))
       continue;
@@ -102,9 +103,13 @@ void warn(Plan& plan) {
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
   }
-  if ((s.look.color_by == "plasticity" || s.look.color_by == "weak") &&
-      std::none_of(s.materials.begin(), s.materials.end(),
-                   [](const Material& m) { return m.tearing.tears(); }))
+  const bool tears = std::any_of(s.materials.begin(), s.materials.end(),
+                                 [](const Material& m) { return m.tearing.tears(); });
+  if (s.numerics.subgrid_removal && !tears)
+    plan.warnings.push_back(
+        "/numerics/subgrid_removal removes nothing: only weak points go, and no material has a finite "
+        "tear_threshold.");
+  if ((s.look.color_by == "plasticity" || s.look.color_by == "weak") && !tears)
     plan.warnings.push_back("Points are coloured by \"" + s.look.color_by +
                             "\", which is 0 everywhere: no material has a finite tear_threshold.");
   if (s.numerics.integration == Integration::kExplicit && s.numerics.time_step > plan.step_bound)

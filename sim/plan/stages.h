@@ -22,9 +22,10 @@ enum class Stage : int {
   kRecovery,            ///< 11
   kParticleCollisions,  ///< 13
   kPositions,           ///< 14
+  kRemoveSubgrid,       ///< 12: only once an interval, between steps
   kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 16;
+inline constexpr int kStageCount = 17;
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "sort",
@@ -41,6 +42,7 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "plastic recovery",
                                                                      "particle collisions",
                                                                      "positions",
+                                                                     "remove subgrid geometry",
                                                                      "avoid a void"};
 
 /// Whether the stage runs on its own and its time is known; else it is a part of the stage before it, whose

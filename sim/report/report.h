@@ -66,8 +66,10 @@ struct FrameMeasure {
   std::int64_t interior_voids = -1;  ///< empty grid cells inside the material; -1: too large to be searched
   // Resampling, since the start.
   std::uint64_t points_inserted = 0;
-  std::uint64_t points_merged = 0;  ///< into others
-  double resampling_momentum = 0;   ///< sum of |change of momentum| over all resamplings, kg m/s
+  std::uint64_t points_merged = 0;   ///< into others
+  double resampling_momentum = 0;    ///< sum of |change of momentum| over all resamplings, kg m/s
+  std::uint64_t points_removed = 0;  ///< by subgrid removal, since the start
+  double mass_removed = 0;           ///< with them, kg
   // Grid density m_i/h^3 at interior nodes (every cell under the kernel's support holds a point), over the
   // initial one.
   std::uint64_t interior_nodes = 0;

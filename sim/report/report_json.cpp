@@ -47,6 +47,7 @@ Json frame(const FrameMeasure& m) {
                 {{"points_inserted", m.points_inserted},
                  {"points_merged", m.points_merged},
                  {"momentum_change", m.resampling_momentum}}},
+               {"subgrid_removal", {{"points_removed", m.points_removed}, {"mass_removed", m.mass_removed}}},
                {"density",
                 {{"interior_nodes", m.interior_nodes},
                  {"mean", m.density_mean},

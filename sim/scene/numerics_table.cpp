@@ -7,22 +7,21 @@ using namespace descriptor;  // the vocabulary of tables
 namespace {
 
 /// Left out, and null, stand for "off": null lets a size or an override take it away.
-Field<Numerics> resampling_field() {
-  Codec<std::optional<Resampling>> codec;
-  const Codec<Resampling> given = object_of(resampling());
+template <class T>
+Field<Numerics> switchable(const char* name, std::optional<T> Numerics::*member, const Table<T>& table,
+                           const char* meaning) {
+  Codec<std::optional<T>> codec;
+  const Codec<T> given = object_of(table);
   codec.allowed = given.allowed + ", or null";
   codec.schema = {{"anyOf", Array{given.schema, Object{{"type", "null"}}}}};
-  codec.read = [given](const Value& value, std::optional<Resampling>& out, const Place& place) {
+  codec.read = [given](const Value& value, std::optional<T>& out, const Place& place) {
     out.reset();
     return std::holds_alternative<std::nullptr_t>(value.data) || given.read(value, out.emplace(), place);
   };
-  codec.write = [given](const std::optional<Resampling>& r) { return r ? given.write(*r) : Value(); };
-  Field<Numerics> out = optional<Numerics>("resampling", &Numerics::resampling, codec,
-                                           "inserts points where deformation would open voids, and merges "
-                                           "crowded ones; {} takes the defaults",
-                                           "off");
-  out.write = [given](const Numerics& n) {
-    return n.resampling ? std::optional<Value>(given.write(*n.resampling)) : std::nullopt;
+  codec.write = [given](const std::optional<T>& t) { return t ? given.write(*t) : Value(); };
+  Field<Numerics> out = optional<Numerics>(name, member, codec, meaning, "off");
+  out.write = [given, member](const Numerics& n) {
+    return n.*member ? std::optional<Value>(given.write(*(n.*member))) : std::nullopt;
   };
   return out;
 }
@@ -40,6 +39,22 @@ const Table<Resampling>& resampling() {
                                              {"interpolated", NewVelocity::kInterpolated}}),
                    "of a new point: the mean of the points that give it mass (keeps momentum), or "
                    "interpolated on the grid (the paper's way)")});
+  return table;
+}
+
+const Table<SubgridRemoval>& subgrid_removal() {
+  using R = SubgridRemoval;
+  static const Table<R> table(
+      "subgrid_removal",
+      "Weak points in slivers and specks that the grid cannot resolve are removed, with their mass.",
+      {optional<R>("interval", &R::interval, number("s", above_to(0, kForever)),
+                   "simulated time between two searches"),
+       optional<R>(
+           "anisotropy", &R::anisotropy, number("1", from_to(0, 1)),
+           "a point goes where the covariance of the points within its kernel has a smaller ratio of its "
+           "least to its largest eigenvalue"),
+       optional<R>("extent", &R::extent, number("1", from_to(0, 1)),
+                   "or where the largest eigenvalue over spacing^2 is smaller than this")});
   return table;
 }
 
@@ -78,7 +93,12 @@ const Table<Numerics>& numerics() {
                    "residual at which the semi-implicit solver stops, over its first one"),
        optional<N>("solver_iterations", &N::solver_iterations, integer(1, 10'000),
                    "most iterations of the semi-implicit solver in one step"),
-       resampling_field()});
+       switchable("resampling", &N::resampling, resampling(),
+                  "inserts points where deformation would open voids, and merges crowded ones; {} takes the "
+                  "defaults"),
+       switchable(
+           "subgrid_removal", &N::subgrid_removal, subgrid_removal(),
+           "removes weak points that are too thin a sliver or speck for the grid; {} takes the defaults")});
   return table;
 }
 

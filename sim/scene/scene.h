@@ -86,6 +86,13 @@ struct Resampling {
   NewVelocity velocity = NewVelocity::kConserving;
 };
 
+/// Removal of weak points whose surroundings the grid cannot resolve ("Continuum Foam", section 7.4).
+struct SubgridRemoval {
+  double interval = 5e-4;    ///< s, simulated, between two searches
+  double anisotropy = 1e-5;  ///< least eigenvalue of the surroundings' covariance over the largest one
+  double extent = 1e-5;      ///< largest eigenvalue over the squared cell width
+};
+
 struct MeshFile;
 
 struct Numerics {
@@ -104,6 +111,7 @@ struct Numerics {
   double solver_tolerance = 1e-2;        ///< residual over the first one, in the norm of the kinetic energy
   int solver_iterations = 200;           ///< most of one step
   std::optional<Resampling> resampling;  ///< none: off
+  std::optional<SubgridRemoval> subgrid_removal;  ///< none: off
 };
 
 struct Scene {

@@ -86,7 +86,8 @@ std::string scene_reference() {
       "`probes.csv`.\n\n" +
           rows(tables::probes().common()),
       tables::probes());
-  out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ");
+  out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ") +
+         section(tables::subgrid_removal().info(), "### ");
   out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());
   return out + cards();

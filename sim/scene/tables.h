@@ -24,6 +24,7 @@ inline constexpr double kForever = 1e30;
 [[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();
 [[nodiscard]] const descriptor::Table<Resampling>& resampling();
+[[nodiscard]] const descriptor::Table<SubgridRemoval>& subgrid_removal();
 [[nodiscard]] const descriptor::Table<Look>& look();
 [[nodiscard]] const descriptor::Table<Look::Camera>& camera();
 [[nodiscard]] const descriptor::Table<Output>& output();

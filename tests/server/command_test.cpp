@@ -120,6 +120,22 @@ TEST_F(SceneCommand, KeptParticlesAreDrawnWithAnotherLook) {
   EXPECT_EQ(run(render + " --frames 2:1"), 2);
 }
 
+TEST_F(SceneCommand, SheetShowsFramesOfARunFromFirstToLast) {
+  std::ofstream(scene_file()) << solid_scene();
+  ASSERT_EQ(run("run " + scene_file() + " --out " + out().string()), 0) << said();
+  const std::filesystem::path sheet = directory_.path() / "sheet.png";
+  const std::string command = "sheet " + out().string() + " --out " + sheet.string();
+  ASSERT_EQ(run(command + " --pictures 3 --width 80"), 0) << said();
+  const render::Image image = render::decode_png(read(sheet));
+  EXPECT_GT(image.width, 3 * 80);
+  EXPECT_LT(image.width, 4 * 80);
+  EXPECT_GT(image.height, 60);
+  EXPECT_EQ(run(command + " --width 161"), 2);
+  EXPECT_NE(said().find("1 to 160"), std::string::npos) << said();
+  EXPECT_EQ(run("sheet " + (directory_.path() / "none").string() + " --out " + sheet.string()), 2);
+  EXPECT_NE(said().find("There are no pictures"), std::string::npos) << said();
+}
+
 TEST_F(SceneCommand, MeshesLieBesideTheSceneAndNowhereElse) {
   Json scene = Json::parse(solid_scene());
   scene["bodies"][0]["shape"] = {{"type", "mesh"}, {"file", "ball.obj"}, {"translate", {0.2, 0.2, 0.2}}};

@@ -1,5 +1,6 @@
 #include "sim/mpm/resample/avoid_void.h"
 
+#include "sim/mpm/resample/false_tears.h"
 #include "sim/mpm/resample/merge.h"
 
 namespace lather::mpm::resample {
@@ -11,13 +12,14 @@ Vec3 insert_points(const std::vector<NewPoint>& points, const std::vector<double
                    const PointBins& bins, std::vector<ParticleSet<Real>>& sets, const Resampler& resampler,
                    std::uint32_t& next_id) {
   Vec3 change = Vec3::Zero();
+  const std::size_t stride = values_stride(sets);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const NewPoint& point = points[i];
     ParticleSet<Real>& set = sets[point.set];
     const Vec3 x = bins.lattice().world(bins.blocks()[point.sample.block].block, point.sample.at);
     const PointSlot slot = set.add(x, Vec3::Zero(), Mat3::Zero(), next_id++);
     const PointValues list(set.layout());
-    list.write(set, slot, values.data() + i * list.count());
+    list.write(set, slot, values.data() + i * stride);
     set.template values<Real>(slot.tile, Field::kShare)[slot.lane] = static_cast<Real>(point.share);
     Vec3 given = Vec3::Zero();
     for (const Gift& gift : point.gifts) {
@@ -39,8 +41,9 @@ Outcome avoid_void(std::vector<ParticleSet<Real>>& sets, const BlockGrid<Real>& 
   const SignedDistance distance(bins, threads);
   const std::vector<Sample> samples = throw_darts(bins, distance, key, resampler.allowed, threads);
   const std::vector<NewPoint> points = compute_new_conserved_values(samples, bins, sets, threads);
-  const std::vector<double> values =
+  std::vector<double> values =
       compute_new_field_values(points, bins, sets, resampler.weights, resampler.velocity, threads);
+  mend_false_tears(points, bins, sets, resampler.tears, values);
   const Vec3 by_new = insert_points(points, values, bins, sets, resampler, next_id);
   const std::vector<Pair> pairs = find_pairs(bins, threads);
   const Vec3 by_merged = merge_points(pairs, bins, sets, resampler.mass);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/mpm/resample/false_tears.h"
 #include "sim/mpm/resample/field_values.h"
 
 namespace lather::mpm::resample {
@@ -11,6 +12,7 @@ struct Resampler {
   std::vector<double> mass;  ///< of a whole point of each set, kg
   KernelWeights weights;
   NewVelocity velocity = NewVelocity::kConserving;
+  TearTest tears;
   std::function<bool(const Vec3&)> allowed;  ///< may a new point stand at x (m)? not inside obstacles
   int threads = 1;
 };

@@ -123,13 +123,22 @@ void take_donors_velocity(const NewPoint& point, const PointBins& bins,
 }  // namespace
 
 template <class Real>
+std::size_t values_stride(const std::vector<ParticleSet<Real>>& sets) {
+  std::size_t stride = 0;
+  for (const auto& set : sets) stride = std::max(stride, PointValues(set.layout()).count());
+  return stride;
+}
+
+template <class Real>
 std::vector<double> compute_new_field_values(const std::vector<NewPoint>& points, const PointBins& bins,
                                              const std::vector<ParticleSet<Real>>& sets,
                                              const KernelWeights& weights, NewVelocity velocity,
                                              int threads) {
   if (points.empty()) return {};
-  const PointValues values(sets[0].layout());  // the same for all materials
-  std::vector<double> all(points.size() * values.count());
+  std::vector<PointValues> lists;  // a material's points hold what it needs
+  for (const auto& set : sets) lists.emplace_back(set.layout());
+  const std::size_t stride = values_stride(sets);
+  std::vector<double> all(points.size() * stride);
   // By block and material: their nodes are computed once.
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -144,13 +153,14 @@ std::vector<double> compute_new_field_values(const std::vector<NewPoint>& points
     const std::size_t first = starts[static_cast<std::size_t>(g)];
     const std::size_t end = starts[static_cast<std::size_t>(g) + 1];
     const auto [block, set] = group(order[first]);
+    const PointValues& values = lists[set];
     std::vector<Local> places;
     for (std::size_t i = first; i < end; ++i) places.push_back(points[order[i]].sample.at);
     NodeMeans<Real> means(bins, sets, weights);
     means.average(block, set, values, places);
     for (std::size_t i = first; i < end; ++i) {
       const NewPoint& point = points[order[i]];
-      double* to = all.data() + order[i] * values.count();
+      double* to = all.data() + order[i] * stride;
       means.interpolate(point.sample.at, values, to);
       if (velocity == NewVelocity::kConserving) take_donors_velocity(point, bins, sets, values, to);
       values.renormalize(to);
@@ -159,6 +169,8 @@ std::vector<double> compute_new_field_values(const std::vector<NewPoint>& points
   return all;
 }
 
+template std::size_t values_stride(const std::vector<ParticleSet<float>>&);
+template std::size_t values_stride(const std::vector<ParticleSet<double>>&);
 template std::vector<double> compute_new_field_values(const std::vector<NewPoint>&, const PointBins&,
                                                       const std::vector<ParticleSet<float>>&,
                                                       const KernelWeights&, NewVelocity, int);

@@ -19,12 +19,16 @@ using KernelWeights = std::function<int(double fraction, double* weight)>;
 /// With NewVelocity::kConserving velocity and affine velocity are instead the mean of the donors', weighted
 /// by what they give, which conserves momentum.
 ///
-/// Returns the values of point i as PointValues lists them, from i * PointValues::count() on.
+/// Returns the values of point i as its set's PointValues lists them, from i * values_stride(sets) on.
 template <class Real>
 [[nodiscard]] std::vector<double> compute_new_field_values(const std::vector<NewPoint>& points,
                                                            const PointBins& bins,
                                                            const std::vector<ParticleSet<Real>>& sets,
                                                            const KernelWeights& weights, NewVelocity velocity,
                                                            int threads);
+
+/// The longest of the sets' lists of values.
+template <class Real>
+[[nodiscard]] std::size_t values_stride(const std::vector<ParticleSet<Real>>& sets);
 
 }  // namespace lather::mpm::resample

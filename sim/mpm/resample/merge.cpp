@@ -69,12 +69,14 @@ template <class Real>
 Vec3 merge_points(const std::vector<Pair>& pairs, const PointBins& bins, std::vector<ParticleSet<Real>>& sets,
                   const std::vector<double>& mass) {
   Vec3 change = Vec3::Zero();
-  const PointValues values(sets[0].layout());
-  std::vector<double> a(values.count());
-  std::vector<double> b(values.count());
+  std::vector<PointValues> lists;
+  for (const auto& set : sets) lists.emplace_back(set.layout());
   for (const Pair& pair : pairs) {
     const std::size_t s = bins.point(pair.kept).set;
     ParticleSet<Real>& set = sets[s];
+    const PointValues& values = lists[s];
+    std::vector<double> a(values.count());
+    std::vector<double> b(values.count());
     const PointSlot kept = bins.point(pair.kept).slot;
     const PointSlot removed = bins.point(pair.removed).slot;
     const double share_a = set.share(kept.tile, kept.lane);

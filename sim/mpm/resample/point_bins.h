@@ -91,8 +91,21 @@ class PointBins {
   template <class Visit>
   void for_points_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
                          const Visit& visit) const;
+  /// Number of those points around point block b.
+  [[nodiscard]] std::uint32_t count_points(std::size_t b, std::array<int, 3> low,
+                                           std::array<int, 3> high) const {
+    std::uint32_t n = 0;
+    for_rows_around(home(b), low, high,
+                    [&](std::uint32_t first, std::uint32_t last, const Local&) { n += last - first; });
+    return n;
+  }
 
  private:
+  /// Calls visit(first, last, shift) for runs of those points; `shift` takes their local positions to the
+  /// block's corner.
+  template <class Visit>
+  void for_rows_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
+                       const Visit& visit) const;
   template <class Real>
   void fill(const std::vector<ParticleSet<Real>>& sets, const BlockGrid<Real>& grid, std::size_t block,
             std::uint32_t begin);
@@ -114,6 +127,15 @@ class PointBins {
 template <class Visit>
 void PointBins::for_points_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
                                   const Visit& visit) const {
+  for_rows_around(block, low, high, [&](std::uint32_t first, std::uint32_t last, const Local& shift) {
+    for (std::uint32_t p = first; p < last; ++p)
+      visit(p, Local{x_[0][p] + shift[0], x_[1][p] + shift[1], x_[2][p] + shift[2]});
+  });
+}
+
+template <class Visit>
+void PointBins::for_rows_around(std::size_t block, std::array<int, 3> low, std::array<int, 3> high,
+                                const Visit& visit) const {
   if (lattice_.dimension == 2) low[2] = high[2] = 0;
   const auto reach = [&](int a) {
     return block_span(low[static_cast<std::size_t>(a)], high[static_cast<std::size_t>(a)],
@@ -131,20 +153,18 @@ void PointBins::for_points_around(std::size_t block, std::array<int, 3> low, std
         const auto from = static_cast<std::size_t>(found);
         int first_cell[3];
         int last_cell[3];
-        float shift[3];
+        Local shift{};
         for (int a = 0; a < 3; ++a) {
           const auto axis = static_cast<std::size_t>(a);
           const int n = lattice_.extent(a);
           first_cell[a] = std::max(low[axis] - o[axis] * n, 0);
           last_cell[a] = std::min(high[axis] - o[axis] * n, n - 1);
-          shift[a] = static_cast<float>(o[axis] * n);
+          shift[axis] = static_cast<float>(o[axis] * n);
         }
         for (int i = first_cell[0]; i <= last_cell[0]; ++i)
-          for (int j = first_cell[1]; j <= last_cell[1]; ++j) {
-            const std::uint32_t end = last(from, lattice_.index(i, j, last_cell[2]));
-            for (std::uint32_t p = first(from, lattice_.index(i, j, first_cell[2])); p < end; ++p)
-              visit(p, Local{x_[0][p] + shift[0], x_[1][p] + shift[1], x_[2][p] + shift[2]});
-          }
+          for (int j = first_cell[1]; j <= last_cell[1]; ++j)
+            visit(first(from, lattice_.index(i, j, first_cell[2])),
+                  last(from, lattice_.index(i, j, last_cell[2])), shift);
       }
 }
 

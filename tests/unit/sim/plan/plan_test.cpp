@@ -78,6 +78,16 @@ TEST(Plan, StagesOfTearingRunOnlyWhereSomethingTearsAndRecoveryOnlyWhereItRecove
                                       "plastic recovery", "positions"}));
 }
 
+TEST(Plan, SubgridRemovalIsAStageOnlyWhereItIsAskedForAndSomethingTears) {
+  const Override asked = {"/numerics/subgrid_removal", "{}"};
+  const Override tears = {"/materials/0/tear_threshold", "2"};
+  const char* stage = "remove subgrid geometry";
+  EXPECT_TRUE(has_stage(plan_of({asked, tears}), stage));
+  EXPECT_FALSE(has_stage(plan_of({tears}), stage));
+  EXPECT_FALSE(has_stage(plan_of({asked}), stage));
+  EXPECT_EQ(plan_of({asked}).warnings.size(), plan_of({}).warnings.size() + 1);
+}
+
 TEST(Plan, WarnsWhenPointsAreColouredByWhatNoMaterialHas) {
   const auto warnings = [](const char* threshold) {
     return plan_of({{"/look/color_by", "weak"}, {"/materials/0/tear_threshold", threshold}}).warnings.size();
