@@ -29,12 +29,11 @@ constexpr std::array<Hole, 5> kHoles = {{{0, 0, 0.010},
                                          {-0.026, -0.026, 0.007}}};
 constexpr double kHalfCracker = 0.005;
 constexpr double kFullPress = 0.0405;  // height of the cracker's middle
-constexpr double kChocolateRim =
-    0.030;                       // distance from the axis beyond which only foam lies that was pressed out
-constexpr double kLifted = 0.9;  // s
+constexpr double kRim = 0.030;         // from the axis: beyond lies only foam that was pressed out
+constexpr double kLifted = 0.9;        // s
 
 // The foam fills the holes and rises by half the middle one's radius, 5 mm (one spacing of the preview), over
-// it, and over all others' rims, for a tenth of a second, in which the cracker rests or turns around.
+// it, and over the rims of all others, for 0.06 s: most of the time that the cracker rests.
 constexpr double kBulge = 0.005;     // m
 constexpr double kBulgeTime = 0.06;  // s
 // The peak: from the end of the lift on, its tip is 25 mm over the plane to which the cracker had pressed the
@@ -67,7 +66,7 @@ Peak find_peak(const Simulation& simulation, double spacing) {
     if (c.cluster[i] != 0) continue;
     const Vec3& x = c.points[i].position;
     peak.tip = std::max(peak.tip, x.y());
-    if (std::hypot(x.x(), x.z()) > kChocolateRim) peak.rest = std::max(peak.rest, x.y());
+    if (std::hypot(x.x(), x.z()) > kRim) peak.rest = std::max(peak.rest, x.y());
   }
   return peak;
 }
