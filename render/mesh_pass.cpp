@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "render/point_colors.h"
 #include "render/shaders.h"
 
 namespace lather::render {
@@ -88,31 +89,38 @@ MeshPass::MeshPass(const Gl& gl)
 
 MeshPass::~MeshPass() = default;
 
-void MeshPass::upload(const Frame& frame) {
+void MeshPass::upload(const Frame& frame, const Look& look) {
   decltype(meshes_) kept;
-  for (const FrameObstacle& obstacle : frame.obstacles) {
-    if (!obstacle.mesh || obstacle.mesh->triangles.empty()) continue;
-    auto& slot = kept[obstacle.mesh];
-    if (slot) continue;
-    const auto known = meshes_.find(obstacle.mesh);
-    slot =
-        known != meshes_.end() ? std::move(known->second) : std::make_unique<Uploaded>(gl_, *obstacle.mesh);
-  }
+  things_.clear();
+  const auto add = [&](const std::shared_ptr<const TriangleMesh>& mesh, const Mat4& place,
+                       const Vec3& color) {
+    if (!mesh || mesh->triangles.empty()) return;
+    auto& slot = kept[mesh];
+    if (!slot) {
+      const auto known = meshes_.find(mesh);
+      slot = known != meshes_.end() ? std::move(known->second) : std::make_unique<Uploaded>(gl_, *mesh);
+    }
+    things_.push_back({slot.get(), place, color});
+  };
+  std::size_t index = 0;
+  for (const FrameObstacle& obstacle : frame.obstacles)
+    add(obstacle.mesh, world_from_object(obstacle.pose), kObstacleColors[index++ % kObstacleColors.size()]);
+  if (look.style == "skin")
+    for (const FrameSkin& skin : frame.skins) {
+      const std::array<double, 3> color = material_color(look, skin.material);
+      add(skin.mesh, Mat4::Identity(), Vec3(color[0], color[1], color[2]));
+    }
   meshes_ = std::move(kept);
 }
 
 void MeshPass::draw(const Shot& shot, const Frame& frame, const Look& look) const {
   mesh_.use();
-  std::size_t index = 0;
-  for (const FrameObstacle& obstacle : frame.obstacles) {
-    const Vec3& color = kObstacleColors[index++ % kObstacleColors.size()];
-    const auto mesh = meshes_.find(obstacle.mesh);
-    if (mesh == meshes_.end()) continue;
-    const Mat4 camera_from_object = shot.view.camera_from_world * world_from_object(obstacle.pose);
+  for (const Thing& thing : things_) {
+    const Mat4 camera_from_object = shot.view.camera_from_world * thing.world_from_object;
     mesh_.set("camera_from_object", camera_from_object);
     mesh_.set("clip_from_object", Mat4(shot.view.clip_from_camera * camera_from_object));
-    mesh_.set("color", color);
-    mesh->second->draw(gl_);
+    mesh_.set("color", thing.color);
+    thing.mesh->draw(gl_);
   }
   if (shot.ground) draw_ground(shot, frame, look);
 }
@@ -134,13 +142,11 @@ void MeshPass::draw_ground(const Shot& shot, const Frame& frame, const Look& loo
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void MeshPass::draw_shadow(const Shot& shot, const Frame& frame) const {
+void MeshPass::draw_shadow(const Shot& shot) const {
   shadow_.use();
-  for (const FrameObstacle& obstacle : frame.obstacles) {
-    const auto mesh = meshes_.find(obstacle.mesh);
-    if (mesh == meshes_.end()) continue;
-    shadow_.set("clip_from_object", Mat4(shot.shadow_clip_from_world * world_from_object(obstacle.pose)));
-    mesh->second->draw(gl_);
+  for (const Thing& thing : things_) {
+    shadow_.set("clip_from_object", Mat4(shot.shadow_clip_from_world * thing.world_from_object));
+    thing.mesh->draw(gl_);
   }
 }
 

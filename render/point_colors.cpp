@@ -26,8 +26,7 @@ std::vector<Rgba> material_colors(const Frame& frame, const Look& look) {
   colors.reserve(frame.points.size());
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const std::size_t material = i < frame.points.material.size() ? frame.points.material[i] : 0;
-    const Color& c = material < look.material_colors.size() ? look.material_colors[material]
-                                                            : kPalette[material % kPalette.size()];
+    const Color c = material_color(look, material);
     colors.push_back({to_byte(c[0]), to_byte(c[1]), to_byte(c[2]), 255});
   }
   return colors;
@@ -77,6 +76,11 @@ ColorScale scale_of(const PointScalar& scalar, const Look& look) {
 }
 
 }  // namespace
+
+std::array<double, 3> material_color(const Look& look, std::size_t material) {
+  return material < look.material_colors.size() ? look.material_colors[material]
+                                                : kPalette[material % kPalette.size()];
+}
 
 PointColors color_points(const Frame& frame, const Look& look) {
   PointColors result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct PointColors {
   std::vector<Rgba> colors;         ///< one a point
   std::optional<ColorScale> scale;  ///< none when coloured by material
 };
+
+/// Of one material, sRGB: the look's own, or from a palette.
+[[nodiscard]] std::array<double, 3> material_color(const Look& look, std::size_t material);
 
 /// Colours by the look's `color_by`. Throws std::runtime_error when the frame has no such scalar or a value
 /// of it is not finite, InputError for an unknown colour map.

@@ -62,6 +62,12 @@ void check_driver(const Gl& gl, const Output& output) {
            "The picture is too large for the graphics driver; make it smaller.");
 }
 
+/// A frame whose scene asked for no skin cannot be drawn as one.
+void check_skins(const Frame& frame, const Look& look) {
+  if (look.style != "skin" || !frame.skins.empty() || frame.points.size() == 0) return;
+  throw std::runtime_error("Frame " + std::to_string(frame.index) + " carries no skin to draw.");
+}
+
 class GlRenderer final : public Renderer {
  public:
   GlRenderer(std::unique_ptr<Context> context, const Look& look, const Output& output)
@@ -82,6 +88,7 @@ class GlRenderer final : public Renderer {
 
   Image draw(const Frame& frame) override {
     check_finite(frame);
+    check_skins(frame, look_);
     const PointColors colors = color_points(frame, look_);
     if (!camera_) camera_ = look_.camera.automatic ? automatic_camera(look_, output_, frame) : look_.camera;
     const Shot shot = make_shot(frame, look_, *camera_, static_cast<double>(output_.width) / output_.height);
@@ -108,19 +115,21 @@ class GlRenderer final : public Renderer {
   Image draw_passes(const Frame& frame, const Shot& shot, const PointColors& colors) {
     pass_times_.clear();
     start_clock();
-    points_->upload(frame.points.position, colors.colors,
-                    point_normals(frame.points.position, frame.point_radius));
-    meshes_->upload(frame);
+    const bool points = look_.style == "points";
+    if (points)
+      points_->upload(frame.points.position, colors.colors,
+                      point_normals(frame.points.position, frame.point_radius));
+    meshes_->upload(frame, look_);
     record("upload");
     screen_->begin_shadow();
     if (shot.shadows) {
-      meshes_->draw_shadow(shot, frame);
-      points_->draw_shadow(shot, screen_->shadow_side());
+      meshes_->draw_shadow(shot);
+      if (points) points_->draw_shadow(shot, screen_->shadow_side());
     }
     record("shadow");
     screen_->begin_geometry();
     meshes_->draw(shot, frame, look_);
-    points_->draw(shot, screen_->drawn_width(), screen_->drawn_height());
+    if (points) points_->draw(shot, screen_->drawn_width(), screen_->drawn_height());
     record("geometry");
     screen_->occlude(shot);
     record("occlusion");

@@ -62,6 +62,9 @@ void check_finite(const Frame& frame) {
     if (!finite(points.position[i])) refuse("the position of point " + std::to_string(i));
   if (!std::isfinite(frame.point_radius)) refuse("the radius of the points");
   if (!frame.domain.min.allFinite() || !frame.domain.max.allFinite()) refuse("the domain");
+  for (const FrameSkin& skin : frame.skins)
+    for (const auto& p : skin.mesh->positions)
+      if (!finite(p)) refuse("a vertex of a skin");
   for (const FrameObstacle& obstacle : frame.obstacles) {
     if (!obstacle.pose.translation.allFinite() || !obstacle.pose.rotation.coeffs().allFinite())
       refuse("the pose of obstacle '" + obstacle.name + "'");

@@ -25,7 +25,7 @@ struct Pose {
 
 /// One scalar carried by every point of a frame, for colour maps and export.
 struct PointScalar {
-  std::string name;           ///< "speed", "J", "plastic_strain"
+  std::string name;           ///< "speed", "J", "plastic_strain", "plasticity", "weak"
   std::string unit;           ///< "m/s", "1"
   std::vector<float> values;  ///< one a point
 };
@@ -47,6 +47,13 @@ struct FrameObstacle {
   Pose pose;  ///< at the frame's time
 };
 
+/// The surface of one material, as the scene asked for it.
+struct FrameSkin {
+  std::uint8_t material = 0;  ///< index into Frame::material_names
+  std::shared_ptr<const TriangleMesh> mesh;
+  double volume = 0;  ///< that the mesh encloses, m^3
+};
+
 /// One frame as an owned, single-precision snapshot: all that render and export may see of a simulation.
 struct Frame {
   int index = 0;
@@ -59,6 +66,7 @@ struct Frame {
   std::vector<std::string> material_names;
   FramePoints points;
   std::vector<FrameObstacle> obstacles;
+  std::vector<FrameSkin> skins;  ///< of materials that have points; none where the scene asks for none
 };
 
 }  // namespace lather

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,6 +22,15 @@ struct Progress {
   std::uint64_t step = 0;
 };
 
+/// One point of the present state for those who measure, in double precision whatever the run's.
+struct PointState {
+  std::uint32_t id = 0;
+  std::uint32_t material = 0;         ///< index into Scene::materials
+  Vec3 position = Vec3::Zero();       ///< m; periodic axes wrapped when last sorted
+  Vec3 velocity = Vec3::Zero();       ///< m/s
+  std::array<double, 6> stress = {};  ///< Kirchhoff, xx yy zz xy xz yz, Pa
+};
+
 class Simulation {
  public:
   /// `threads` = 0 takes all cores. Throws InputError when the machine lacks the plan's kernel level.
@@ -34,6 +44,9 @@ class Simulation {
 
   [[nodiscard]] virtual Frame frame() const = 0;           ///< snapshot of the present state
   [[nodiscard]] virtual const Report& report() const = 0;  ///< of all steps so far
+
+  /// Every point of the present state, in an order that no number of threads changes.
+  virtual void visit_points(const std::function<void(const PointState&)>& visit) const = 0;
 
   /// The whole state as bytes, and back; bit-equal onwards. Throws InputError for another plan's or build's
   /// bytes.

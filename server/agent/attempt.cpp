@@ -13,6 +13,7 @@
 
 #include "server/agent/runner_watch.h"
 #include "server/artifacts/layout.h"
+#include "server/job/drawn_from.h"
 
 namespace lather::server {
 namespace {
@@ -90,6 +91,9 @@ RunnerOrder Attempt::make_order() const {
   order.threads = threads_of_one(settings_);
   order.render_backend = settings_.render_backend;
   order.memory_limit = settings_.memory_limit;
+  if (const std::optional<DrawnFrom> source = drawn_from(order.plan))
+    order.particles =
+        (job_directory(settings_.data, source->job) / attempt_path(source->attempt) / "particles").string();
   return order;
 }
 

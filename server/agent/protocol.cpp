@@ -65,7 +65,8 @@ std::string to_line(const RunnerOrder& order) {
                   {"directory", order.directory},
                   {"threads", order.threads},
                   {"render_backend", order.render_backend},
-                  {"memory_limit", order.memory_limit}});
+                  {"memory_limit", order.memory_limit},
+                  {"particles", order.particles}});
 }
 
 std::string to_line(const RunnerEvent& event) {
@@ -80,6 +81,7 @@ RunnerOrder order_from_line(std::string_view line) {
   json.at("threads").get_to(order.threads);
   json.at("render_backend").get_to(order.render_backend);
   json.at("memory_limit").get_to(order.memory_limit);
+  json.at("particles").get_to(order.particles);
   return order;
 }
 

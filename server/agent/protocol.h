@@ -18,6 +18,7 @@ struct RunnerOrder {
   int threads = 0;
   std::string render_backend = "auto";
   std::uint64_t memory_limit = 0;  ///< of the address space, bytes; 0: none
+  std::string particles;           ///< directory of kept ones to draw again; "": the plan is simulated
 };
 
 /// Down, at most once, after the order.

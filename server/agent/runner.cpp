@@ -17,7 +17,7 @@
 #include "server/agent/line_socket.h"
 #include "server/agent/protocol.h"
 #include "server/artifacts/layout.h"
-#include "server/run/run.h"
+#include "server/run/redraw.h"
 
 namespace lather::server {
 namespace {
@@ -63,9 +63,13 @@ void heed_agent(LineSocket& down, std::atomic<bool>& stop) {
 RunnerResult run_order(const RunnerOrder& order, RunEvents& events, const std::atomic<bool>& stop) {
   try {
     const std::filesystem::path directory = order.directory;
-    const RunSettings settings = {directory / kFramesPath, directory / kReportName, order.threads,
-                                  order.render_backend};
-    const Report report = run(read_plan(order.plan), settings, events, stop);
+    RunSettings settings = {directory / kFramesPath, directory / kReportName, directory / kProbesName,
+                            order.threads,           order.render_backend,    directory};
+    const bool draw_only = !order.particles.empty();
+    if (draw_only) settings.files.clear();
+    const Report report =
+        draw_only ? redraw(read_plan_scene(order.plan), order.particles, FrameRange{}, settings, events, stop)
+                  : run(read_plan(order.plan), settings, events, stop);
     return {report.state, report.error};
   } catch (const std::bad_alloc&) {
     return {"failed", "out of memory: choose a larger spacing, fewer points per cell or a smaller picture"};

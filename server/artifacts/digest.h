@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
+
+#include "sim/scene/sha256.h"
 
 namespace lather::server {
 
-/// SHA-256 as 64 hex digits.
-[[nodiscard]] std::string sha256_hex(std::string_view bytes);
+using lather::sha256_hex;
 
 /// `count` characters of [A-Za-z0-9_-] from the system's random numbers: 6 bits each.
 [[nodiscard]] std::string random_token(std::size_t count);

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-/// Where things lie in the data directory: DATA/jobs/ID/attempts/K/{report.json, log.txt,
+/// Where things lie in the data directory: DATA/jobs/ID/attempts/K/{report.json, probes.csv, log.txt,
 /// frames/main/color/NNNNN.png}.
 namespace lather::server {
 
@@ -18,6 +18,7 @@ namespace lather::server {
 inline constexpr const char* kFramesPath =
     "frames/main/color";  ///< below an attempt: camera "main", channel "color"
 inline constexpr const char* kReportName = "report.json";
+inline constexpr const char* kProbesName = "probes.csv";
 inline constexpr const char* kLogName = "log.txt";
 
 /// Relative to the job's directory.

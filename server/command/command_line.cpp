@@ -15,10 +15,14 @@ constexpr int kRunnerFd = 3;
 
 struct AllOptions {
   RunOptions run;
+  RenderOptions render;
+  SheetOptions sheet;
   PlanOptions plan;
   ServeOptions serve;
   AgentOptions worker;
   SubmitOptions submit;
+  RheometerOptions rheometer;
+  VerifyOptions verify;
   bool version_json = false;
   int exit_code = 0;
 };
@@ -38,12 +42,48 @@ void add_run(CLI::App& program, AllOptions& all) {
   CLI::App& command =
       *program.add_subcommand("run", "Simulate a scene and draw its frames, without a server");
   add_scene(command, all.run.scene);
-  command.add_option("--out", all.run.out, "directory for frames/, report.json and plan.json")->required();
+  command
+      .add_option("--out", all.run.out,
+                  "directory for frames/, report.json, plan.json and the files that the scene asks for")
+      ->required();
   command.add_option("--threads", all.run.threads, "threads of a step; 0: all cores")
       ->check(CLI::Range(0, 1024));
   add_backend(command, all.run.render_backend);
   command.add_flag("--json", all.run.json, "events as JSON lines on stdout");
   command.callback([&all] { all.exit_code = run_command(all.run); });
+}
+
+void add_render(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "render", "Draw the particles that a run kept again, with another camera or look");
+  RenderOptions& render = all.render;
+  command.add_option("DIR", render.kept, "what 'lather run' made: plan.json and particles/")->required();
+  command.add_option("--look", render.look, "file of a look (JSON), in place of the scene's");
+  command
+      .add_option("--set", render.set,
+                  "change a field: /look/...=value or /output/...=value; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--frames", render.frames, "one frame, or FIRST:LAST; all without it");
+  command.add_option("--out", render.out, "directory for frames/ and report.json")->required();
+  command.add_option("--threads", render.threads, "0: all cores")->check(CLI::Range(0, 1024));
+  add_backend(command, render.render_backend);
+  command.add_flag("--json", render.json, "events as JSON lines on stdout");
+  command.callback([&all] { all.exit_code = render_command(all.render); });
+}
+
+void add_sheet(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "sheet", "Put pictures of runs on one sheet, a row a run, from first to last frame");
+  SheetOptions& sheet = all.sheet;
+  command.add_option("DIR", sheet.runs, "what 'lather run' made")->required();
+  command.add_option("--pictures", sheet.pictures, "of each run")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--width", sheet.width, "of a picture on the sheet, px")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  command.add_option("--out", sheet.out, "the sheet, a PNG file")->required();
+  command.callback([&all] { all.exit_code = sheet_command(all.sheet); });
 }
 
 void add_plan(CLI::App& program, AllOptions& all) {
@@ -139,6 +179,37 @@ void add_submit(CLI::App& program, AllOptions& all) {
   command.callback([&all] { all.exit_code = submit_command(all.submit); });
 }
 
+void add_rheometer(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "rheometer", "Shear a material: its start-up curve, or its steady flow curve with --rates");
+  RheometerOptions& o = all.rheometer;
+  command.add_option("MATERIAL", o.material, "a preset's name, or a JSON file with a material")->required();
+  command.add_option("--rate", o.rate, "shear rate of the start-up, 1/s")->capture_default_str();
+  command.add_option("--time", o.time, "length of the start-up, s")->capture_default_str();
+  command.add_option("--steps", o.steps, "intervals between readings")->capture_default_str();
+  command.add_flag("--box", o.box, "shear a box of points by the whole method, not the law alone");
+  command.add_option("--rates", o.rates, "steady flow curve: LOWEST:HIGHEST[:COUNT], 1/s, e.g. 0.01:100");
+  command.add_option("--measured", o.measured,
+                     "with --rates: a flow curve to set beside it, tau_y:K:n of tau_y + K rate^n");
+  command.add_flag("--viscosity", o.viscosity,
+                   "with --rates: the chart shows effective viscosity over stress");
+  command.add_option("--threads", o.threads, "threads of the box; 0: all cores")->check(CLI::Range(0, 1024));
+  command.add_flag("--json", o.json, "the whole curve as JSON");
+  command.add_option("--chart", o.chart, "draw the curve into this file (.svg)");
+  command.callback([&all] { all.exit_code = rheometer_command(all.rheometer); });
+}
+
+void add_verify(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "verify", "Compare simulations with exact solutions; fails if a bound is missed");
+  command.add_option("CASE", all.verify.cases, "names of cases; none: all of them");
+  command.add_flag("--quick", all.verify.quick, "without names: only the cases that take seconds");
+  command.add_option("--threads", all.verify.threads, "threads of a step; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--json", all.verify.json, "the table as JSON");
+  command.callback([&all] { all.exit_code = verify_command(all.verify); });
+}
+
 void add_rest(CLI::App& program, AllOptions& all) {
   CLI::App& version = *program.add_subcommand("version", "Print the version");
   version.add_flag("--json", all.version_json, "as JSON");
@@ -160,10 +231,14 @@ int parse_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   AllOptions all;
   add_run(program, all);
+  add_render(program, all);
+  add_sheet(program, all);
   add_plan(program, all);
   add_serve(program, all);
   add_worker(program, all);
   add_submit(program, all);
+  add_rheometer(program, all);
+  add_verify(program, all);
   add_rest(program, all);
   try {
     program.parse(argc, argv);

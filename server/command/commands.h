@@ -31,6 +31,26 @@ struct RunOptions {
 };
 int run_command(const RunOptions& options);
 
+struct RenderOptions {
+  std::filesystem::path kept;  ///< what `lather run` made: plan.json and particles/NNNNN.ply
+  std::filesystem::path look;  ///< file of a look (JSON), "" for the run's
+  std::vector<std::string> set;
+  std::string frames;  ///< "N" or "FIRST:LAST"; "": all
+  std::filesystem::path out;
+  int threads = 0;
+  std::string render_backend = "auto";
+  bool json = false;
+};
+int render_command(const RenderOptions& options);
+
+struct SheetOptions {
+  std::vector<std::filesystem::path> runs;  ///< what `lather run` made, a row each
+  int pictures = 5;                         ///< of each run, from its first frame to its last
+  int width = 240;                          ///< of a picture on the sheet, px
+  std::filesystem::path out;                ///< PNG
+};
+int sheet_command(const SheetOptions& options);
+
 struct PlanOptions {
   SceneSource scene;
   bool json = false;
@@ -71,6 +91,30 @@ struct SubmitOptions {
   bool json = false;
 };
 int submit_command(const SubmitOptions& options);
+
+struct RheometerOptions {
+  std::string material;  ///< a preset's name, or a file
+  double rate = 1;       ///< 1/s
+  double time = 3;       ///< s
+  std::int64_t steps = 2000;
+  std::string rates;     ///< "lowest:highest[:count]"; "": a start-up
+  std::string measured;  ///< "tau_y:K:n" of a flow curve to show beside the material's; "": none
+  bool box = false;
+  bool viscosity = false;
+  int threads = 0;
+  bool json = false;
+  std::filesystem::path chart;
+};
+int rheometer_command(const RheometerOptions& options);
+
+struct VerifyOptions {
+  std::vector<std::string> cases;  ///< none: all
+  bool quick = false;              ///< of all, only those that take seconds
+  int threads = 0;
+  bool json = false;
+};
+/// 0 if all cases pass, else 1.
+int verify_command(const VerifyOptions& options);
 
 int version_command(bool json);
 int schema_command();

@@ -1,14 +1,20 @@
 #include "server/command/scene_source.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
+#include "sim/shape/mesh_file.h"
+
 namespace lather::server {
 
 std::string read_text(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(
+        {{"", file.string(), "a readable file", "cannot read " + file.string() + ": it is a directory"}});
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError({{"", file.string(), "a readable file",
@@ -31,8 +37,27 @@ std::vector<Override> read_overrides(const std::vector<std::string>& set) {
   return overrides;
 }
 
+MeshSource meshes_beside(const std::filesystem::path& scene_file) {
+  return [directory = scene_file.parent_path()](const std::string& file) {
+    const std::filesystem::path path = file;
+    const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
+    if (path.is_absolute() || leaves)
+      throw MeshError("A mesh must lie in the directory of the scene's file, or below it. Put it there.",
+                      "a relative path without \"..\"");
+    std::ifstream stream(directory / path, std::ios::binary);
+    std::string bytes(kMaxMeshBytes + 1, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    if (bytes.empty())
+      throw MeshError("There is no readable file " + (directory / path).string() + ", or it is empty.",
+                      "a file in the directory of the scene's file, or below it");
+    return bytes;
+  };
+}
+
 Scene read_scene(const SceneSource& source) {
-  return parse_scene(read_text(source.file), source.size, read_overrides(source.set));
+  return parse_scene(read_text(source.file), source.size, read_overrides(source.set),
+                     meshes_beside(source.file));
 }
 
 void print_problems(const std::string& what, const std::vector<Problem>& problems) {

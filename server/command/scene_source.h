@@ -14,6 +14,9 @@ namespace lather::server {
 /// "/pointer=value" each. Throws InputError for one without '='.
 [[nodiscard]] std::vector<Override> read_overrides(const std::vector<std::string>& set);
 
+/// Meshes by their paths from the directory of the scene's file.
+[[nodiscard]] MeshSource meshes_beside(const std::filesystem::path& scene_file);
+
 [[nodiscard]] Scene read_scene(const SceneSource& source);
 
 /// For people: each problem with its place, its value and what is allowed.

@@ -41,6 +41,8 @@ void Api::add_job_routes() {
   add("GET", "/jobs/{}",
       [this](const HttpRequest&, const Captures& at) { return job_response(200, need_job(at[0])); });
   add("DELETE", "/jobs/{}", [this](const HttpRequest&, const Captures& at) { return delete_job(at[0]); });
+  add("POST", "/jobs/{}/render",
+      [this](const HttpRequest& request, const Captures& at) { return post_render(request, at[0]); });
   add("POST", "/jobs/{}/cancel",
       [this](const HttpRequest&, const Captures& at) { return cancel_job(at[0]); });
 }
@@ -52,8 +54,14 @@ void Api::add_artifact_routes() {
   add("/jobs/{}/frames", [this](const HttpRequest&, const Captures& at) { return list_frames(at[0]); });
   add("/jobs/{}/frames/{}.png",
       [this](const HttpRequest& request, const Captures& at) { return get_frame(request, at[0], at[1]); });
+  for (const FrameFileKind& kind : frame_file_kinds())
+    router_.add(
+        "GET", api_path("/jobs/{}/") + kind.folder + "/{}." + kind.ending,
+        [this, kind](const HttpRequest&, const Captures& at) { return get_file(at[0], at[1], kind); });
   add("/jobs/{}/frames.zip", [this](const HttpRequest&, const Captures& at) { return get_zip(at[0]); });
   add("/jobs/{}/report", [this](const HttpRequest&, const Captures& at) { return get_report(at[0]); });
+  add("/jobs/{}/probes.csv",
+      [this](const HttpRequest& request, const Captures& at) { return get_probes(request, at[0]); });
   add("/jobs/{}/plan", [this](const HttpRequest&, const Captures& at) { return get_plan(at[0]); });
   add("/jobs/{}/log", [this](const HttpRequest&, const Captures& at) { return get_log(at[0]); });
 }

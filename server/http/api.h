@@ -10,6 +10,7 @@
 #include "server/http/message.h"
 #include "server/http/router.h"
 #include "server/store/store.h"
+#include "sim/export/frame_files.h"
 
 namespace lather::server {
 
@@ -37,6 +38,8 @@ class Api {
 
   // api_jobs.cpp
   [[nodiscard]] HttpResponse post_job(const HttpRequest& request);
+  [[nodiscard]] HttpResponse post_render(const HttpRequest& request, const std::string& id);
+  [[nodiscard]] HttpResponse add_job(const Submission& submission);
   [[nodiscard]] HttpResponse list_jobs(const HttpRequest& request);
   [[nodiscard]] HttpResponse cancel_job(const std::string& id);
   [[nodiscard]] HttpResponse delete_job(const std::string& id);
@@ -47,8 +50,12 @@ class Api {
   [[nodiscard]] HttpResponse list_frames(const std::string& id);
   [[nodiscard]] HttpResponse get_frame(const HttpRequest& request, const std::string& id,
                                        const std::string& number);
+  [[nodiscard]] HttpResponse get_file(const std::string& id, const std::string& number,
+                                      const FrameFileKind& kind);
+  [[nodiscard]] FrameRow need_frame(const Job& job, const std::string& number);
   [[nodiscard]] HttpResponse get_zip(const std::string& id);
   [[nodiscard]] HttpResponse get_report(const std::string& id);
+  [[nodiscard]] HttpResponse get_probes(const HttpRequest& request, const std::string& id);
   [[nodiscard]] HttpResponse get_plan(const std::string& id);
   [[nodiscard]] HttpResponse get_log(const std::string& id);
   [[nodiscard]] std::optional<std::string> read_frame(const std::string& id, const FrameRow& frame) const;

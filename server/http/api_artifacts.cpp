@@ -1,3 +1,7 @@
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -53,6 +57,23 @@ std::shared_ptr<void> take_stream(std::atomic<int>& streams, int most) {
   return nullptr;
 }
 
+HttpResponse busy_response() {
+  HttpResponse busy = HttpError(503, "too many downloads are under way: try again").response();
+  busy.headers.emplace_back("Retry-After", "5");
+  return busy;
+}
+
+/// All bytes of the file, a piece at a time.
+bool send_file(int fd, const BodySink& sink) {
+  std::array<char, 65536> piece{};
+  while (true) {
+    const ssize_t got = ::read(fd, piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return got == 0;
+    if (!sink({piece.data(), static_cast<std::size_t>(got)})) return false;
+  }
+}
+
 }  // namespace
 
 HttpResponse Api::list_frames(const std::string& id) {
@@ -60,19 +81,23 @@ HttpResponse Api::list_frames(const std::string& id) {
   return json_response(200, write_json(frames_value(job, store_.frames(id)), 2));
 }
 
-HttpResponse Api::get_frame(const HttpRequest& request, const std::string& id, const std::string& number) {
-  const Job job = need_job(id);
+FrameRow Api::need_frame(const Job& job, const std::string& number) {
   const std::optional<int> index = frame_number(number);
-  const std::optional<FrameRow> frame = index ? store_.frame(id, *index) : std::nullopt;
+  const std::optional<FrameRow> frame = index ? store_.frame(job.id, *index) : std::nullopt;
   if (!frame)
     throw HttpError(404, "there is no frame " + number.substr(0, 20) + " (yet); the job has " +
                              std::to_string(job.progress.frames) + " when it is done");
-  const std::string tag = '"' + frame->sha256 + '"';
+  return *frame;
+}
+
+HttpResponse Api::get_frame(const HttpRequest& request, const std::string& id, const std::string& number) {
+  const FrameRow frame = need_frame(need_job(id), number);
+  const std::string tag = '"' + frame.sha256 + '"';
   HttpResponse response;
   if (request.header("if-none-match").find(tag) != std::string::npos) {
     response.status = 304;
   } else {
-    std::optional<std::string> bytes = read_frame(id, *frame);
+    std::optional<std::string> bytes = read_frame(id, frame);
     if (!bytes) throw HttpError(404, "the frame's file is gone from the data directory");
     response = bytes_response(request, std::move(*bytes));
     if (response.status < 300) response.content_type = "image/png";
@@ -82,14 +107,31 @@ HttpResponse Api::get_frame(const HttpRequest& request, const std::string& id, c
   return response;
 }
 
+// Particles of a large job are hundreds of megabytes a frame: streamed, never held.
+HttpResponse Api::get_file(const std::string& id, const std::string& number, const FrameFileKind& kind) {
+  const FrameRow frame = need_frame(need_job(id), number);
+  const std::shared_ptr<void> place = take_stream(streams_, settings_.most_streams);
+  if (!place) return busy_response();
+  const auto file = std::make_shared<const OwnedFd>(open_beneath(
+      job_directory(settings_.data, id),
+      attempt_path(frame.attempt) + '/' + kind.folder + '/' + frame_file_name(frame.index, kind.ending)));
+  if (!*file)
+    throw HttpError(404, "the job keeps no " + kind.folder + " as " + kind.ending +
+                             ": its scene asks for them by \"" + kind.folder + "\": [\"" + kind.ending +
+                             "\"] in \"output\"");
+  HttpResponse response;
+  response.content_type = kind.ending == "obj" ? "model/obj" : "application/octet-stream";
+  response.headers.emplace_back("Content-Disposition",
+                                "attachment; filename=\"" + frame_file_name(frame.index, kind.ending) + "\"");
+  response.headers.emplace_back("Cache-Control", "no-store");
+  response.stream = [file, place](const BodySink& sink) { return send_file(file->get(), sink); };
+  return response;
+}
+
 HttpResponse Api::get_zip(const std::string& id) {
   const Job job = need_job(id);
   const std::shared_ptr<void> place = take_stream(streams_, settings_.most_streams);
-  if (!place) {
-    HttpResponse busy = HttpError(503, "too many downloads are under way: try again").response();
-    busy.headers.emplace_back("Retry-After", "5");
-    return busy;
-  }
+  if (!place) return busy_response();
   std::vector<ZipEntry> entries;
   for (const FrameRow& frame : store_.frames(id))
     entries.push_back({frame_file_name(frame.index), [this, id, frame] { return read_frame(id, frame); }});
@@ -111,6 +153,21 @@ HttpResponse Api::get_report(const std::string& id) {
     throw HttpError(404, "there is no report: it is written when a run ends by itself; the job is " +
                              std::string(to_string(job.state)));
   return json_response(200, std::move(*report));
+}
+
+HttpResponse Api::get_probes(const HttpRequest& request, const std::string& id) {
+  const Job job = need_job(id);
+  std::optional<std::string> csv =
+      read_beneath(job_directory(settings_.data, id), attempt_path(job.attempt) + '/' + kProbesName);
+  if (!csv)
+    throw HttpError(404,
+                    std::string("there are no samples: the scene has no probes, or the job has not ended "
+                                "by itself yet; it is ") +
+                        to_string(job.state));
+  HttpResponse response = bytes_response(request, std::move(*csv));
+  if (response.status < 300) response.content_type = "text/csv; charset=utf-8";
+  response.headers.emplace_back("Cache-Control", "no-cache");
+  return response;
 }
 
 HttpResponse Api::get_plan(const std::string& id) {

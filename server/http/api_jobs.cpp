@@ -10,6 +10,7 @@
 #include "server/http/api.h"
 #include "server/http/job_json.h"
 #include "server/http/problem.h"
+#include "server/http/redraw_submission.h"
 #include "server/http/submission.h"
 
 namespace lather::server {
@@ -49,7 +50,27 @@ Listing read_listing(const HttpRequest& request) {
 }  // namespace
 
 HttpResponse Api::post_job(const HttpRequest& request) {
-  const Submission submission = make_submission(request, read_posted_scene(request, settings_.limits));
+  return add_job(make_submission(request, read_posted_scene(request, settings_.limits)));
+}
+
+HttpResponse Api::post_render(const HttpRequest& request, const std::string& id) {
+  const Job source = need_job(id);
+  if (!has_ended(source.state))
+    throw HttpError(409, "the job is " + std::string(to_string(source.state)) +
+                             ": its particles are drawn again when it has ended");
+  const std::string plan = store_.plan(id).value_or("");
+  // The particles that this job drew, where it was one that drew again; else its own, of the attempt that
+  // made frame 0.
+  std::optional<DrawnFrom> from = drawn_from(plan);
+  if (!from) {
+    const std::optional<FrameRow> first = store_.frame(id, 0);
+    if (!first) throw HttpError(409, "the job has no frames to draw again");
+    from = DrawnFrom{id, first->attempt};
+  }
+  return add_job(make_redraw(request, source, plan, *from, settings_.limits));
+}
+
+HttpResponse Api::add_job(const Submission& submission) {
   if (store_.count(JobState::kQueued) >= settings_.most_queued)
     throw HttpError(503, "the queue is full: try again when jobs have ended");
   if (const std::optional<Job> earlier = store_.add(submission)) {

@@ -39,6 +39,7 @@ Value links_value(const std::string& id) {
                 {"frames", self + "/frames"},
                 {"zip", self + "/frames.zip"},
                 {"report", self + "/report"},
+                {"probes", self + "/probes.csv"},
                 {"plan", self + "/plan"},
                 {"log", self + "/log"}};
 }

@@ -59,17 +59,21 @@ std::string plan_numbers(const Plan& plan) {
              {"height", output.height}});
 }
 
-/// Points if every body filled its bounds.
+/// Points if the shape filled its bounds.
+double most_points_in(const Scene& scene, const Shape& shape) {
+  const Box3 box = bounds(shape, scene.domain.box);
+  const Vec3 extent = box.max.cwiseMin(scene.domain.box.max) - box.min.cwiseMax(scene.domain.box.min);
+  double points = scene.points_per_cell;
+  for (int axis = 0; axis < scene.dimension; ++axis)
+    points *= std::ceil(std::max(0.0, extent[axis]) / scene.spacing);
+  return points;
+}
+
+/// Points if every body and every emitter's shape filled its bounds once.
 double most_points(const Scene& scene) {
   double points = 0;
-  for (const Body& body : scene.bodies) {
-    const Box3 box = bounds(*body.shape, scene.domain.box);
-    const Vec3 extent = box.max.cwiseMin(scene.domain.box.max) - box.min.cwiseMax(scene.domain.box.min);
-    double cells = scene.points_per_cell;
-    for (int axis = 0; axis < scene.dimension; ++axis)
-      cells *= std::ceil(std::max(0.0, extent[axis]) / scene.spacing);
-    points += cells;
-  }
+  for (const Body& body : scene.bodies) points += most_points_in(scene, *body.shape);
+  for (const Emitter& emitter : scene.emitters) points += most_points_in(scene, *emitter.shape);
   return points;
 }
 
@@ -85,6 +89,13 @@ void check_before_planning(const Scene& scene, const JobLimits& limits) {
   excesses.check("/frame_rate", "frames", frames, limits.frames, "shorten duration or lower frame_rate");
   if (!excesses.any()) return;
   throw excesses.error().with("plan", write_json(Object{{"points_at_most", points}, {"frames", frames}}));
+}
+
+void check_pictures(const Output& output, const JobLimits& limits) {
+  Excesses excesses;
+  excesses.check("/output", "pixels a frame", static_cast<double>(output.width) * output.height,
+                 static_cast<double>(limits.pixels), "choose a smaller width and height");
+  if (excesses.any()) throw excesses.error();
 }
 
 void check_plan(const Plan& plan, const JobLimits& limits) {

@@ -24,4 +24,7 @@ void check_before_planning(const Scene& scene, const JobLimits& limits);
 /// Refuses (HttpError 422, with the plan's numbers) a plan beyond the limits, naming each one.
 void check_plan(const Plan& plan, const JobLimits& limits);
 
+/// Refuses (HttpError 422) pictures beyond the limits.
+void check_pictures(const Output& output, const JobLimits& limits);
+
 }  // namespace lather::server

@@ -8,7 +8,6 @@
 
 #include "server/artifacts/digest.h"
 #include "server/http/problem.h"
-#include "sim/scene/value.h"
 
 namespace lather::server {
 namespace {
@@ -82,9 +81,9 @@ class EnvelopeReader {
     } else if (key == "size") {
       read_size(value);
     } else if (key == "set") {
-      read_overrides(value);
+      read_override_members(value, envelope_.overrides, problems_);
     } else if (key == "priority") {
-      read_priority(value);
+      read_priority_member(value, envelope_.priority, problems_);
     } else {
       problems_.push_back(wrong(pointer_token(key), value, "scene, size, set, priority",
                                 "'" + key + "' is no member of a request"));
@@ -103,24 +102,6 @@ class EnvelopeReader {
     else
       problems_.push_back(
           wrong("/size", value, "the name of one of the scene's sizes", "size must be a string"));
-  }
-
-  void read_overrides(const Value& value) {
-    if (!value.object()) {
-      problems_.push_back(wrong("/set", value, "{\"/json/pointer\": value}", "set must be an object"));
-      return;
-    }
-    for (const auto& [pointer, replacement] : *value.object())
-      envelope_.overrides.push_back({pointer, write_json(replacement)});
-  }
-
-  void read_priority(const Value& value) {
-    const auto* const whole = std::get_if<std::int64_t>(&value.data);
-    if (whole && *whole >= -kMostPriority && *whole <= kMostPriority)
-      envelope_.priority = static_cast<int>(*whole);
-    else
-      problems_.push_back(
-          wrong("/priority", value, "a whole number from -100 to 100", "priority is out of range"));
   }
 
   Envelope envelope_;
@@ -148,19 +129,48 @@ Plan plan_envelope(const Envelope& envelope, const JobLimits& limits) {
 
 }  // namespace
 
-PostedScene read_posted_scene(const HttpRequest& request, const JobLimits& limits) {
+Value read_json_body(const HttpRequest& request) {
   require_json(request);
-  const Envelope envelope = EnvelopeReader().read(parse_body(request.body));
-  return {plan_envelope(envelope, limits), envelope.priority};
+  return parse_body(request.body);
 }
 
-Submission make_submission(const HttpRequest& request, const PostedScene& posted) {
+void read_override_members(const Value& set, std::vector<Override>& overrides,
+                           std::vector<Problem>& problems) {
+  if (!set.object()) {
+    problems.push_back(wrong("/set", set, "{\"/json/pointer\": value}", "set must be an object"));
+    return;
+  }
+  for (const auto& [pointer, replacement] : *set.object())
+    overrides.push_back({pointer, write_json(replacement)});
+}
+
+void read_priority_member(const Value& value, int& priority, std::vector<Problem>& problems) {
+  const auto* const whole = std::get_if<std::int64_t>(&value.data);
+  if (whole && *whole >= -kMostPriority && *whole <= kMostPriority)
+    priority = static_cast<int>(*whole);
+  else
+    problems.push_back(
+        wrong("/priority", value, "a whole number from -100 to 100", "priority is out of range"));
+}
+
+void fill_idempotency(const HttpRequest& request, Job& job) {
   const std::string key = request.header("idempotency-key");
   const bool plain = std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (key.size() > kLongestKey || !plain)
     throw HttpError(400, "Idempotency-Key must be at most 128 printable characters without spaces");
+  job.idempotency_key = key;
+  job.request_digest = sha256_hex(request.path + '\n' + request.body);
+}
+
+PostedScene read_posted_scene(const HttpRequest& request, const JobLimits& limits) {
+  const Envelope envelope = EnvelopeReader().read(read_json_body(request));
+  return {plan_envelope(envelope, limits), envelope.priority};
+}
+
+Submission make_submission(const HttpRequest& request, const PostedScene& posted) {
   Submission submission;
   Job& job = submission.job;
+  fill_idempotency(request, job);
   job.id = new_job_id();
   job.name = posted.plan.scene.name;
   job.priority = posted.priority;
@@ -168,8 +178,6 @@ Submission make_submission(const HttpRequest& request, const PostedScene& posted
   job.points = posted.plan.points;
   job.frame_rate = posted.plan.scene.frame_rate;
   job.progress.frames = posted.plan.frames;
-  job.idempotency_key = key;
-  job.request_digest = sha256_hex(request.body);
   submission.scene = to_json(posted.plan.scene);
   submission.plan = to_json(posted.plan);
   return submission;

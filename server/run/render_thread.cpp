@@ -15,10 +15,16 @@ constexpr std::size_t kMostWaiting = 2;
 
 }  // namespace
 
-RenderThread::RenderThread(const Plan& plan, std::filesystem::path frames, const std::string& render_backend,
-                           int threads, RunEvents& events)
-    : plan_(plan), frames_(std::move(frames)), events_(events), scene_hash_(scene_hash(plan.scene)) {
-  thread_ = std::thread([this, render_backend, threads] { main(render_backend, threads); });
+RenderThread::RenderThread(const Scene& scene, std::string hash, const RunSettings& settings,
+                           RunEvents& events)
+    : scene_(scene),
+      settings_(settings),
+      files_(settings.files.empty() ? std::vector<FrameFileKind>{} : planned_files(scene.output)),
+      events_(events),
+      scene_hash_(std::move(hash)) {
+  std::filesystem::create_directories(settings_.frames);
+  for (const FrameFileKind& kind : files_) std::filesystem::create_directories(settings_.files / kind.folder);
+  thread_ = std::thread([this] { main(); });
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return ready_ || failure_; });
   if (!failure_) return;
@@ -64,11 +70,11 @@ bool RenderThread::take(Frame& frame) {
   return true;
 }
 
-void RenderThread::main(const std::string& render_backend, int threads) {
+void RenderThread::main() {
   using Clock = std::chrono::steady_clock;
   try {
-    const auto renderer = render::Renderer::create(render::backend_from_string(render_backend),
-                                                   plan_.scene.look, plan_.scene.output, threads);
+    const auto renderer = render::Renderer::create(render::backend_from_string(settings_.render_backend),
+                                                   scene_.look, scene_.output, settings_.threads);
     backend_ = renderer->backend();
     {
       const std::lock_guard lock(mutex_);
@@ -78,18 +84,24 @@ void RenderThread::main(const std::string& render_backend, int threads) {
     Frame frame;
     while (take(frame)) {
       const auto start = Clock::now();
-      const render::PngText text = {scene_hash_, version(), plan_.scene.name, frame.time, frame.index};
-      const std::string png = renderer->draw_png(frame, text);
+      const render::PngText text = {scene_hash_, version(), scene_.name, frame.time, frame.index};
+      write(frame, renderer->draw_png(frame, text));
       seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-      const std::string name = frame_file_name(frame.index);
-      write_whole(frames_ / name, png);
-      events_.frame({frame.index, name, sha256_hex(png), png.size()});
     }
   } catch (...) {
     const std::lock_guard lock(mutex_);
     failure_ = std::current_exception();
     changed_.notify_all();
   }
+}
+
+/// The picture last: where it is, its frame's other files are.
+void RenderThread::write(const Frame& frame, const std::string& png) {
+  for (const FrameFileKind& kind : files_)
+    write_whole(settings_.files / kind.folder / frame_file_name(frame.index, kind.ending), kind.bytes(frame));
+  const std::string name = frame_file_name(frame.index);
+  write_whole(settings_.frames / name, png);
+  events_.frame({frame.index, name, sha256_hex(png), png.size()});
 }
 
 }  // namespace lather::server

@@ -3,25 +3,25 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "server/run/run.h"
+#include "sim/export/frame_files.h"
 #include "sim/frame.h"
 
 namespace lather::server {
 
-/// Draws frames and writes them whole, beside the simulation's next steps. One thread for the whole run,
-/// since a drawing context belongs to the thread that made it. At most two frames wait; then push() blocks,
-/// so that memory stays bounded when drawing is slower than stepping.
+/// Draws frames and writes them whole, with the files that the scene asks for, beside the simulation's next
+/// steps. One thread for the whole run, since a drawing context belongs to the thread that made it. At most
+/// two frames wait; then push() blocks, so that memory stays bounded when drawing is slower than stepping.
 class RenderThread {
  public:
-  /// Returns once the drawing context stands; throws what made it fail. `plan` and `events` must outlive
-  /// this.
-  RenderThread(const Plan& plan, std::filesystem::path frames, const std::string& render_backend, int threads,
-               RunEvents& events);
+  /// Returns once the drawing context stands; throws what made it fail. `scene` and `events` must outlive
+  /// this. Of the settings all but the report's file count, and `threads` must be known.
+  /// Pictures name the scene by `hash`.
+  RenderThread(const Scene& scene, std::string hash, const RunSettings& settings, RunEvents& events);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
@@ -36,15 +36,17 @@ class RenderThread {
   [[nodiscard]] const std::string& backend() const { return backend_; }
   [[nodiscard]] double seconds() const {
     return seconds_;
-  }  ///< spent in drawing and encoding; after finish()
+  }  ///< spent in drawing and making files; after finish()
 
  private:
-  void main(const std::string& render_backend, int threads);
+  void main();
+  void write(const Frame& frame, const std::string& png);
   bool take(Frame& frame);
   void close(bool draw_rest);
 
-  const Plan& plan_;
-  const std::filesystem::path frames_;
+  const Scene& scene_;
+  const RunSettings settings_;
+  const std::vector<FrameFileKind> files_;
   RunEvents& events_;
   const std::string scene_hash_;
   std::string backend_;

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
-#include <mutex>
 #include <thread>
 
 #include "server/artifacts/whole_file.h"
 #include "server/run/render_thread.h"
+#include "server/run/serial_events.h"
 #include "sim/simulation.h"
 
 namespace lather::server {
@@ -21,28 +21,6 @@ constexpr auto kProgressInterval = std::chrono::milliseconds(100);
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// Passes events on one at a time, whichever thread they come from.
-class SerialEvents final : public RunEvents {
- public:
-  explicit SerialEvents(RunEvents& to) : to_(to) {}
-  void progress(const RunProgress& progress) override {
-    const std::lock_guard lock(mutex_);
-    to_.progress(progress);
-  }
-  void frame(const FrameFile& frame) override {
-    const std::lock_guard lock(mutex_);
-    to_.frame(frame);
-  }
-  void log(const std::string& line) override {
-    const std::lock_guard lock(mutex_);
-    to_.log(line);
-  }
-
- private:
-  std::mutex mutex_;
-  RunEvents& to_;
-};
 
 /// Turns the steps' heartbeats into progress with a time left, about ten a second.
 class ProgressMeter {
@@ -96,11 +74,10 @@ bool make_frames(const Plan& plan, Simulation& simulation, RenderThread& rendere
 
 Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, const std::atomic<bool>& stop) {
   SerialEvents serial(events);
-  std::filesystem::create_directories(settings.frames);
-  const int threads = settings.threads > 0
-                          ? settings.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  RenderThread renderer(plan, settings.frames, settings.render_backend, threads, serial);
+  RunSettings with_threads = settings;
+  with_threads.threads = thread_count(settings.threads);
+  const int threads = with_threads.threads;
+  RenderThread renderer(plan.scene, scene_hash(plan.scene), with_threads, serial);
   serial.log("drawing with " + renderer.backend());
   for (const std::string& warning : plan.warnings) serial.log("warning: " + warning);
 
@@ -121,14 +98,19 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   report.render_backend = renderer.backend();
   report.render_seconds = renderer.seconds();
   report.threads = threads;
+  if (!report.probes.empty()) write_whole(settings.probes, probes_csv(report.probes));
   write_whole(settings.report, to_json(report));
   return report;
 }
 
-std::string frame_file_name(int index) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%05d.png", index);
-  return name;
+std::string frame_file_name(int index, const std::string& ending) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%05d.", index);
+  return number + ending;
+}
+
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 }  // namespace lather::server

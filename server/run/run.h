@@ -15,8 +15,11 @@ namespace lather::server {
 struct RunSettings {
   std::filesystem::path frames;  ///< directory of 00000.png …; made if missing
   std::filesystem::path report;  ///< file; written when the run ends in one of its three states
+  std::filesystem::path probes;  ///< file, CSV; written with the report when the scene has probes
   int threads = 0;               ///< of a step; 0: all cores
   std::string render_backend = "auto";
+  std::filesystem::path files;  ///< directory of particles/00000.ply, skin/00000.obj …, those that the scene
+                                ///< asks for; "": none
 };
 
 struct RunProgress {
@@ -54,6 +57,9 @@ class RunEvents {
                          const std::atomic<bool>& stop);
 
 /// "00042.png"
-[[nodiscard]] std::string frame_file_name(int index);
+[[nodiscard]] std::string frame_file_name(int index, const std::string& ending = "png");
+
+/// The threads that `wanted` stands for: 0 is all cores.
+[[nodiscard]] int thread_count(int wanted);
 
 }  // namespace lather::server

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "sim/collide/contact_sink.h"
+#include "sim/collide/hold.h"
 #include "sim/frame.h"
 #include "sim/scene/scene.h"
 
@@ -30,16 +33,36 @@ class Obstacles {
   ///
   /// Inside an adhesive obstacle the velocity becomes the obstacle's. Else, with v_rel = v - v_co and outward
   /// normal n: separating (v_rel . n >= 0) stays; the normal part is removed; the tangential part loses mu_f
-  /// |v_n|, or all.
-  bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity) const;
+  /// |v_n|, or all. What `mass` (kg) loses goes to `sink`.
+  bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
+               const ContactSink& sink) const;
+
+  /// Adds to `hold` what contact with the obstacles `near` prescribes of the velocity at `x`, for a node that
+  /// would move with `velocity` without them: the same contacts as resolve() finds.
+  void hold(const std::vector<std::uint32_t>& near, const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
+  /// An obstacle that holds a place inside it.
+  struct Touch {
+    const Obstacle* source;
+    Vec3 velocity;  // of the obstacle there
+    Vec3 normal;    // outward; not set for adhesive obstacles
+  };
+  [[nodiscard]] std::optional<Touch> touch(std::uint32_t obstacle, const Vec3& x) const;
+  /// The velocity after contact; none where the two separate.
+  [[nodiscard]] static std::optional<Vec3> after_contact(const Touch& t, const Vec3& velocity);
+
   struct Placed {
     const Obstacle* source;
+    Vec3 middle;                // of a ball around the shape, in its own frame
+    double reach;               // m, radius of that ball; infinite for a shape without bounds
+    Vec3 place = Vec3::Zero();  // of the ball's middle at the present time
     Pose pose;
     Vec3 velocity_at_origin = Vec3::Zero();
     Mat3 velocity_gradient = Mat3::Zero();
   };
+  /// The same for one obstacle.
+  bool touch(const Placed& o, const Vec3& x, Vec3& velocity) const;
   [[nodiscard]] static Vec3 to_local(const Placed& o, const Vec3& x) {
     return o.pose.rotation.conjugate() * (x - o.pose.translation);
   }
@@ -58,15 +81,25 @@ class Walls {
   /// True when some face lies within `margin` of the box [low, high].
   [[nodiscard]] bool near(const Vec3& low, const Vec3& high, double margin) const;
 
+  /// False beyond a face that is not periodic.
+  [[nodiscard]] bool inside(const Vec3& x) const;
+
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
   /// moves.
-  bool resolve(const Vec3& x, Vec3& velocity) const;
+  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const;
+
+  /// The same for a step that solves for velocities; see Obstacles::hold().
+  void hold(const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
+  bool touch(const Vec3& x, Vec3& velocity) const;
+
   Box3 box_;
   int dimension_;
+  std::size_t index_;  // behind the obstacles', in a sink
   bool stick_;
   std::array<bool, 3> closed_{};
+  std::array<bool, 3> periodic_{};
   double tolerance_;  // a node on the face counts as beyond it
 };
 

@@ -44,17 +44,22 @@ inline Sym3<T> renormalize(const Sym3<T>& B) {
   return add_isotropic(scale(B, m), m_minus_one);
 }
 
-/// Elastic prediction over a step with incremental deformation f = I + A, A = dt grad v. [Foam eq. 12, 13]
+/// det(I + A)^(-2/3) (I + A)(I + B)(I + A)^T - I with d = det(I + A) - 1. [Foam eq. 13]
 template <class T>
-inline HerschelBulkleyState<T> predict_elastic(const HerschelBulkleyState<T>& state, const Mat3<T>& A) {
+inline Sym3<T> push_forward_isochoric(const Mat3<T>& A, const Sym3<T>& B, const T& d) {
   using Real = typename ScalarOf<T>::type;
-  const T d = det_minus_one(A);
   const T J_f = d + Real(1);
   const T c = exp(log(J_f) * Real(-2.0 / 3.0));                                    // det(f)^(-2/3)
   const T c_minus_one = -d * (d + Real(2)) / (J_f * J_f * (c * c + c + Real(1)));  // c^3 - 1 = (1+d)^-2 - 1
-  const Sym3<T> pushed = push_forward_minus_identity(A, state.strain);
+  return add_isotropic(scale(push_forward_minus_identity(A, B), c), c_minus_one);
+}
+
+/// Elastic prediction over a step with incremental deformation f = I + A, A = dt grad v. [Foam eq. 12, 13]
+template <class T>
+inline HerschelBulkleyState<T> predict_elastic(const HerschelBulkleyState<T>& state, const Mat3<T>& A) {
+  const T d = det_minus_one(A);
   const T& j = state.volume_change;
-  return {j + d + j * d, add_isotropic(scale(pushed, c), c_minus_one)};
+  return {j + d + j * d, push_forward_isochoric(A, state.strain, d)};
 }
 
 /// Stress beyond yield after the step: s - sqrt(2/3) sigma_Y, Pa, from the predicted one, both >= 0.

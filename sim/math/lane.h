@@ -196,6 +196,23 @@ inline double min(double a, double b) {
   return a < b ? a : b;
 }
 
+/// log(1 + x) and exp(x) - 1 (for x above -80) with all digits of a small x: the rounding of 1 + x, of
+/// exp(x), is divided out again (Kahan).
+template <class T>
+inline T log1p(const T& x) {
+  const T u = T(1) + x;
+  const T d = u - T(1);
+  const auto exact = abs(d) > T(0);
+  return select(exact, log(u) * (x / select(exact, d, T(1))), x);
+}
+template <class T>
+inline T expm1(const T& x) {
+  const T u = exp(x);
+  const T l = log(u);
+  const auto exact = abs(l) > T(0);
+  return select(exact, (u - T(1)) * (x / select(exact, l, T(1))), x);
+}
+
 template <class T>
 struct ScalarOf {
   using type = T;

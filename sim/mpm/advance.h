@@ -2,7 +2,7 @@
 
 // Positions after a step, and a check of the state. Compiled per kernel level.
 
-#include "sim/mpm/tile.h"
+#include "sim/mpm/tear.h"
 
 namespace lather::LATHER_LEVEL {
 
@@ -37,8 +37,7 @@ mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::Step
   Lane<Real> suspect(Real(0));  // x - x is 0 for finite x only; no maximum can hide a NaN here
   Lane<Real> smallest(Real(1));
   for (int first = 0; first < points.count; first += kLanes) {
-    const Tile<Real, Dim> tile{
-        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     Lane<Real> speed_squared(Real(0));
     for (int a = 0; a < Dim; ++a) {
       const Lane<Real> v = tile.lane(Field::kVelocity, a);
@@ -59,6 +58,10 @@ mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::Step
     for (int c = 0; c < Tile<Real, Dim>::kStrainComponents; ++c) {
       const Lane<Real> b = tile.lane(Field::kElasticStrain, c);
       suspect += b - b;
+    }
+    if (tile.has(Field::kDeformation)) {
+      const Mat3<Lane<Real>> G = load_deformation(tile);
+      for_deformation<Dim>([&](int, int a, int b) { suspect += G.m[a][b] - G.m[a][b]; });
     }
     smallest = min(j + Real(1), smallest);
     fastest = max(speed_squared, fastest);

@@ -102,7 +102,8 @@ inline void update_velocities(const Tile<Real, Dim>& tile, const Gathered<Real, 
   }
 }
 
-/// [7. deformation, 10. plastic flow] J and be over the step. [Foam E.3 steps 7 and 10, Algorithms 11 and 13]
+/// [7. deformation, 8. limit deformation, 10. plastic flow] J, be and, where the material tears, F over the
+/// step. [Foam E.3 steps 7, 8 and 10, Algorithms 11 and 13]
 template <class Real, int Dim, bool Apic>
 inline void update_deformation(const Tile<Real, Dim>& tile, const Gathered<Real, Dim, Apic>& g,
                                const mpm::MaterialConstants<Real>& material,
@@ -115,6 +116,10 @@ inline void update_deformation(const Tile<Real, Dim>& tile, const Gathered<Real,
       A.m[a][b] = a < Dim && b < Dim
                       ? Lane<Real>::load(g.gradient[a < Dim ? a : 0][b < Dim ? b : 0]) * scale_by
                       : zero;
+  if (tile.has(Field::kDeformation)) {
+    limit_increment(tile, material.tearing, A);
+    store_deformation(tile, deformed(load_deformation(tile), A));
+  }
   HerschelBulkleyState<Lane<Real>> state = predict_elastic(load_state(tile), A);
   const Lane<Real> plastic_strain = correct_plastic(state, material.law, step.dt);
   tile.put(Field::kVolumeChange, 0, state.volume_change);
@@ -134,8 +139,7 @@ template <class Real, int Dim, bool Cubic, bool Apic>
 void gather(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
             const mpm::StepConstants<Real>& step, const Real* velocity, const Real* increment) {
   for (int first = 0; first < points.count; first += kLanes) {
-    const Tile<Real, Dim> tile{
-        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     Gathered<Real, Dim, Apic> gathered;
     for (int k = 0; k < kLanes; ++k)  // empty lanes repeat a point's place and stay harmless

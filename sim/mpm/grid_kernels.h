@@ -83,16 +83,14 @@ void collect(const Real* const* blocks, Real* buffer) {
     buffer[k] = 0;
 }
 
-/// v* = v + dt (f/m + g) [Foam E.3 step 5; the paper prints it without v, which its FLIP update needs]. A
-/// node with so little mass that p/m would lose its digits takes no part.
+/// v* = v + dt (f/m + g) [Foam E.3 step 5; the paper prints it without v, which its FLIP update needs].
 template <class Real, int Dim, bool Apic>
 void update_grid(const mpm::StepConstants<Real>& step, Real* node, Real* increment) {
-  constexpr Real kLeastMass = sizeof(Real) == 4 ? Real(1e-34) : Real(1e-290);
   for (int i = 0; i < mpm::block_nodes(Dim); ++i) {
     Real* q = node + i * mpm::kQuad;
     Real* dv = Apic ? nullptr : increment + i * mpm::kQuad;
     const Real mass = q[0];
-    const bool carries = mass > kLeastMass;
+    const bool carries = mass > mpm::kLeastMass<Real>;
     const Real per_mass = carries ? Real(1) / mass : Real(0);
     for (int a = 0; a < Dim; ++a) {
       const Real gravity = carries ? step.dt * step.gravity[a] : Real(0);

@@ -6,15 +6,19 @@
 #include "sim/mpm/advance.h"
 #include "sim/mpm/gather.h"
 #include "sim/mpm/grid_kernels.h"
+#include "sim/mpm/stiffness.h"
+#include "sim/mpm/tearing_points.h"
 
 namespace lather::LATHER_LEVEL {
 namespace {
 
 template <class Real, int Dim, bool Cubic, bool Apic>
 mpm::Kernels<Real> kernels() {
-  return {scatter<Real, Dim, Cubic, Apic>, reduce<Real, Dim>,
-          update_grid<Real, Dim, Apic>,    collect<Real, Dim>,
-          gather<Real, Dim, Cubic, Apic>,  advance<Real, Dim>};
+  return {detect_tearing<Real, Dim>,  scatter<Real, Dim, Cubic, Apic>,
+          reduce<Real, Dim>,          update_grid<Real, Dim, Apic>,
+          collect<Real, Dim>,         gather<Real, Dim, Cubic, Apic>,
+          recover<Real, Dim>,         advance<Real, Dim>,
+          stiffness<Real, Dim, Cubic>};
 }
 
 template <class Real>
@@ -102,7 +106,7 @@ mpm::KernelTable<Real> make_table() {
            {{kernels<Real, 3, false, false>(), kernels<Real, 3, false, true>()},
             {kernels<Real, 3, true, false>(), kernels<Real, 3, true, true>()}}},
           {plastic_excess_wide<Real>, plastic_excess_scalar<Real>, law_step<Real>, law_step_wide<Real>,
-           stress<Real>, weights<Real>}};
+           stress<Real>, weights<Real>, tearing_kernels<Real, Real>(), tearing_kernels<Lane<Real>, Real>()}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "sim/material/herschel_bulkley_constants.h"
+#include "sim/material/tearing_constants.h"
 #include "sim/plan/tile_layout.h"
 
 /// The border between the solver and its kernels, which are compiled once per instruction set: plain structs
@@ -37,12 +38,17 @@ constexpr int neighbours(int dim) {
   return power(3, dim);
 }
 
+/// A node with less mass, kg, would lose the digits of p/m: it takes no part.
+template <class Real>
+inline constexpr Real kLeastMass = sizeof(Real) == 4 ? Real(1e-34) : Real(1e-290);
+
 /// One material's constants in the run's precision.
 template <class Real>
 struct MaterialConstants {
   Real mass;    ///< of each point, kg
   Real volume;  ///< of each point at rest, m^3
   HerschelBulkleyConstants<Real> law;
+  TearingConstants<Real> tearing;
 };
 
 /// One material's points in one block.
@@ -64,6 +70,15 @@ struct StepConstants {
   Real phase;       ///< of rounding positions, in [0, 1): see advance()
 };
 
+/// Weights of what stiffness() adds up, dimensionless but the last; see sim/mpm/stiffness.h.
+template <class Real>
+struct StiffnessTerms {
+  Real stress;     ///< of the stress at hand
+  Real material;   ///< of the change of stress that deformation brings; never negative as an energy
+  Real geometric;  ///< of the change of force that turning and stretching under stress bring
+  Real diffusion;  ///< of velocity, m^2/s
+};
+
 /// A block's place: index of its first node per axis.
 struct BlockPlace {
   std::int32_t first_node[3];
@@ -73,16 +88,19 @@ struct BlockPlace {
 struct BlockExtremes {
   double largest_cells = 0;  ///< largest |v| dt / h along an axis
   double speed_squared = 0;  ///< largest, (m/s)^2
-  bool finite = true;        ///< of every velocity, J and strain
+  bool finite = true;        ///< of every velocity, J, strain and F
   bool collapsed = false;    ///< some J <= 0
 };
 
 /// Where the parts of a step spend time; kernels add nothing here, their caller does.
 template <class Real>
 struct Kernels {
-  /// [1. rasterize, 3. grid forces] Adds the points of one material to the block buffers `momentum` (m, p)
-  /// and, with FLIP, `force` (0, f); with APIC the force's impulse dt f goes into `momentum` and `force` is
-  /// not touched.
+  /// [2. detect tearing regions] Writes kPlasticity of a material that tears.
+  void (*detect_tearing)(const BlockPoints<Real>&);
+
+  /// [1. rasterize, 3. grid forces, 4. limit forces] Adds the points of one material to the block buffers
+  /// `momentum` (m, p) and, with FLIP, `force` (0, f); with APIC the force's impulse dt f goes into
+  /// `momentum` and `force` is not touched.
   void (*scatter)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&, Real* momentum,
                   Real* force);
 
@@ -97,13 +115,38 @@ struct Kernels {
   /// Copies the nodes around a block from the grid blocks `blocks[n]` into a buffer.
   void (*collect)(const Real* const* blocks, Real* buffer);
 
-  /// [7. deformation, 9. velocities, 10. plastic flow] of one material's points from the buffers of (m, v*),
-  /// (0, v* - v).
+  /// [7. deformation, 8. limit deformation, 9. velocities, 10. plastic flow] of one material's points from
+  /// the buffers of (m, v*), (0, v* - v).
   void (*gather)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&,
                  const Real* velocity, const Real* increment);
 
+  /// [11. plastic recovery] of a material that tears; exponent = (exp(-t/eta_p) - 1)/2.
+  void (*recover)(const BlockPoints<Real>&, Real exponent);
+
   /// [14. positions] x += dt v, and a check of the state.
   BlockExtremes (*advance)(const BlockPoints<Real>&, const StepConstants<Real>&);
+
+  /// [semi-implicit step] Adds to the block buffer `impulse` (0, p) the momentum that the points' internal
+  /// forces give over dt while the grid moves with `velocity`, a buffer of (any, v): a linear function of it,
+  /// plus a constant.
+  void (*stiffness)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&,
+                    const StiffnessTerms<Real>&, const Real* velocity, Real* impulse);
+};
+
+/// Eigenvalues and tearing at one point, for tests. State as in PointKernels; tensors row by row, symmetric
+/// ones xx yy zz xy xz yz; `G` = F - I.
+template <class Real>
+struct TearingKernels {
+  /// vector: 3 rows, the k-th belongs to value[k].
+  void (*eigenpairs)(const Real* a, Real* value, Real* vector);
+  Real (*largest_eigenvalue)(const Real* a);
+  /// R - I of I + A.
+  void (*polar_rotation)(const Real* A, Real* R_minus_identity);
+  void (*deformed)(const Real* G, const Real* A, Real* deformed);
+  Real (*plasticity)(const Real* state, const Real* G);
+  void (*limited_stress)(const Real* tau, Real* limited);
+  void (*limited_increment)(const Real* state, const Real* A, Real* limited);
+  void (*recovered)(const Real* state, const Real* G, Real exponent, Real* recovered);
 };
 
 /// The law at single points, for tests and the rheometer.
@@ -126,6 +169,8 @@ struct PointKernels {
   /// Kernel weights at fraction f of a cell: 4 weights and 4 derivatives (per cell), cubic or quadratic.
   /// Returns the first node's offset from the cell.
   int (*weights)(bool cubic, Real fraction, Real* weight, Real* derivative);
+  TearingKernels<Real> tearing;       ///< scalar
+  TearingKernels<Real> tearing_wide;  ///< the point in one of 16 lanes, the others at rest
 };
 
 /// Kernels of one level; picked by dimension (2, 3), kernel order and transfer.

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <limits>
 
+#include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/step.h"
 
 namespace lather::mpm {
@@ -20,14 +20,41 @@ CellBounds cell_bounds(const Scene& scene) {
 }
 
 template <class Real>
-MaterialConstants<Real> material_constants(const Scene& scene, const HerschelBulkleyParameters& law) {
+MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
+  const HerschelBulkleyParameters& law = material.herschel_bulkley;
   const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
   return {static_cast<Real>(law.density * volume),
           static_cast<Real>(volume),
-          {static_cast<Real>(law.bulk_modulus), static_cast<Real>(law.shear_modulus),
-           static_cast<Real>(std::sqrt(2.0 / 3.0) * law.yield_stress), static_cast<Real>(law.viscosity),
-           static_cast<Real>(law.flow_index), static_cast<Real>(1 / law.flow_index),
-           std::numeric_limits<Real>::epsilon()}};
+          herschel_bulkley_constants<Real>(law),
+          {static_cast<Real>(material.tearing.tear_threshold)}};
+}
+
+template <class Real>
+resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds,
+                                   const std::vector<MaterialConstants<Real>>& materials) {
+  resample::Resampler r;
+  r.lattice = resample::Lattice(plan.scene);
+  r.bounds = bounds;
+  for (const MaterialConstants<Real>& m : materials) r.mass.push_back(static_cast<double>(m.mass));
+  const bool cubic = plan.scene.numerics.kernel == Kernel::kCubic;
+  const PointKernels<double>& point = kernel_table<double>(plan.choices.kernel_level).point;
+  r.weights = [cubic, weights = point.weights](double fraction, double* weight) {
+    double derivative[4];
+    return weights(cubic, fraction, weight, derivative);
+  };
+  for (const Material& m : plan.scene.materials) r.tears.tear_threshold.push_back(m.tearing.tear_threshold);
+  r.tears.plasticity = point.tearing.plasticity;
+  if (plan.scene.numerics.resampling) r.velocity = plan.scene.numerics.resampling->velocity;
+  return r;
+}
+
+resample::SubgridSearch subgrid_search(const Scene& scene, const resample::Resampler& resampler) {
+  resample::SubgridSearch search;
+  search.thresholds = scene.numerics.subgrid_removal.value_or(SubgridRemoval{});
+  search.tear_threshold = resampler.tears.tear_threshold;
+  search.mass = resampler.mass;
+  search.weights = resampler.weights;
+  return search;
 }
 
 }  // namespace
@@ -36,10 +63,12 @@ template <class Real>
 Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(plan.scene)), walls(plan.scene) {
   const bool cubic = scene.numerics.kernel == Kernel::kCubic;
   const bool apic = scene.numerics.transfer == Transfer::kApic;
-  kernels =
-      kernel_table<Real>(plan.choices.kernel_level).step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
-  for (const Material& m : scene.materials)
-    materials.push_back(material_constants<Real>(scene, m.herschel_bulkley));
+  const KernelTable<Real>& table = kernel_table<Real>(plan.choices.kernel_level);
+  point = table.point;
+  kernels = table.step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
+  for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
+  resampler = make_resampler(plan, bounds, materials);
+  removal = subgrid_search(scene, resampler);
   // See kHomeShift. A little less, for the rounding of sums of displacements.
   drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;
 }

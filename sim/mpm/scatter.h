@@ -1,49 +1,46 @@
 #pragma once
 
-// From points to grid: mass, momentum [Foam E.3 step 1, Algorithm 6] and internal forces [step 3, Algorithm 8
-// without tearing], f_i = -sum_p V_p tau_p grad w_ip. Compiled per kernel level.
+// From points to grid: mass, momentum [Foam E.3 step 1, Algorithm 6] and internal forces [steps 3 and 4,
+// Algorithm 8], f_i = -sum_p V_p tau_p grad w_ip. Compiled per kernel level.
 //
 // A row of four nodes times (mass, x, y, z) is one lane of 16. The weights factorise, so a row costs one
 // multiply-add for momentum and two for force once its plane's lanes are known.
 
-#include "sim/material/herschel_bulkley.h"
 #include "sim/mpm/stencil.h"
+#include "sim/mpm/tear.h"
 
 namespace lather::LATHER_LEVEL {
 
+/// The points' mass and volume over those of a point as it was sampled: other than 1 only with resampling.
 template <class Real, int Dim>
-inline HerschelBulkleyState<Lane<Real>> load_state(const Tile<Real, Dim>& tile) {
-  const Lane<Real> zero(Real(0));
-  HerschelBulkleyState<Lane<Real>> s;
-  s.volume_change = tile.lane(Field::kVolumeChange);
-  s.strain = {tile.lane(Field::kElasticStrain, 0),
-              tile.lane(Field::kElasticStrain, 1),
-              tile.lane(Field::kElasticStrain, 2),
-              tile.lane(Field::kElasticStrain, 3),
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 4 : 0) : zero,
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 5 : 0) : zero};
-  return s;
+inline Lane<Real> load_share(const Tile<Real, Dim>& tile) {
+  return tile.has(Field::kShare) ? tile.lane(Field::kShare) : Lane<Real>(Real(1));
 }
 
 /// What point k adds to the grid, as quads (mass, x, y, z): its mass and momentum; `pull[a]`, the factor of
 /// the weight's derivative along axis a; `arm[a]`, the factor of weight times distance along a (APIC).
 template <class Real, int Dim, bool Apic>
 struct PointSources {
+  alignas(64) Real mass[kLanes];
   alignas(64) Real momentum[Dim][kLanes];
   alignas(64) Real pull[Dim][Dim][kLanes];
   alignas(64) Real arm[Apic ? Dim : 1][Dim][kLanes];
 
   PointSources(const Tile<Real, Dim>& tile, const mpm::MaterialConstants<Real>& material,
                const mpm::StepConstants<Real>& step) {
-    const Sym3<Lane<Real>> tau = kirchhoff_stress(load_state(tile), material.law);
-    const Real per_derivative = -material.volume / step.cell * (Apic ? step.dt : Real(1));
+    Sym3<Lane<Real>> tau = kirchhoff_stress(load_state(tile), material.law);
+    if (tile.has(Field::kPlasticity)) limit_stress(tile, material.tearing, tau);
+    const Lane<Real> share = load_share(tile);
+    const Lane<Real> m = share * material.mass;
+    const Lane<Real> per_derivative = share * Real(-material.volume / step.cell * (Apic ? step.dt : Real(1)));
     const Lane<Real> t[3][3] = {{tau.xx, tau.xy, tau.xz}, {tau.xy, tau.yy, tau.yz}, {tau.xz, tau.yz, tau.zz}};
+    m.store(mass);
     for (int a = 0; a < Dim; ++a) {
-      (tile.lane(Field::kVelocity, a) * material.mass).store(momentum[a]);
+      (tile.lane(Field::kVelocity, a) * m).store(momentum[a]);
       for (int b = 0; b < Dim; ++b) (t[a][b] * per_derivative).store(pull[a][b]);
       if constexpr (Apic)
         for (int b = 0; b < Dim; ++b)
-          (tile.lane(Field::kAffine, b * Dim + a) * Real(material.mass * step.cell)).store(arm[a][b]);
+          (tile.lane(Field::kAffine, b * Dim + a) * (m * step.cell)).store(arm[a][b]);
     }
   }
 
@@ -59,11 +56,11 @@ inline void add_row(Real* row, const Lane<Real>& value) {
 
 /// Point k of a tile, FLIP: momentum and force to their own buffers.
 template <class Real, int Dim, bool Cubic>
-inline void scatter_flip(const Stencil<Real, Dim, Cubic>& s, const PointSources<Real, Dim, false>& p,
-                         Real mass, int k, Real* momentum, Real* force) {
+inline void scatter_flip(const Stencil<Real, Dim, Cubic>& s, const PointSources<Real, Dim, false>& p, int k,
+                         Real* momentum, Real* force) {
   constexpr int last = Dim - 1;
   const Lane<Real> w_row = spread(s.row_weights(k));
-  const Lane<Real> m = w_row * repeat(p.quad(mass, p.momentum, k));
+  const Lane<Real> m = w_row * repeat(p.quad(p.mass[k], p.momentum, k));
   const Lane<Real> f_x = w_row * repeat(p.quad(Real(0), p.pull[0], k));
   const Lane<Real> f_last = spread(s.row_derivatives(k)) * repeat(p.quad(Real(0), p.pull[last], k));
   Real* m_row = momentum + s.base[k];
@@ -91,11 +88,11 @@ inline void scatter_flip(const Stencil<Real, Dim, Cubic>& s, const PointSources<
 /// Point k of a tile, APIC: momentum with its affine part, and the force's impulse, to one buffer.
 /// Momentum at node i is w m (v + C (x_i - x_p)) (Jiang et al. 2015).
 template <class Real, int Dim, bool Cubic>
-inline void scatter_apic(const Stencil<Real, Dim, Cubic>& s, const PointSources<Real, Dim, true>& p,
-                         Real mass, int k, Real* momentum) {
+inline void scatter_apic(const Stencil<Real, Dim, Cubic>& s, const PointSources<Real, Dim, true>& p, int k,
+                         Real* momentum) {
   constexpr int last = Dim - 1;
   const Lane<Real> w_row = spread(s.row_weights(k));
-  const Lane<Real> m = w_row * repeat(p.quad(mass, p.momentum, k)) +
+  const Lane<Real> m = w_row * repeat(p.quad(p.mass[k], p.momentum, k)) +
                        spread(s.row_arms(k)) * repeat(p.quad(Real(0), p.arm[last], k)) +
                        spread(s.row_derivatives(k)) * repeat(p.quad(Real(0), p.pull[last], k));
   const Lane<Real> arm_x = w_row * repeat(p.quad(Real(0), p.arm[0], k));
@@ -124,16 +121,15 @@ template <class Real, int Dim, bool Cubic, bool Apic>
 void scatter(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
              const mpm::StepConstants<Real>& step, Real* momentum, Real* force) {
   for (int first = 0; first < points.count; first += kLanes) {
-    const Tile<Real, Dim> tile{
-        points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+    const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     const PointSources<Real, Dim, Apic> sources(tile, *points.material, step);
     const int count = points.count - first < kLanes ? points.count - first : kLanes;
     for (int k = 0; k < count; ++k) {
       if constexpr (Apic)
-        scatter_apic(stencil, sources, points.material->mass, k, momentum);
+        scatter_apic(stencil, sources, k, momentum);
       else
-        scatter_flip(stencil, sources, points.material->mass, k, momentum, force);
+        scatter_flip(stencil, sources, k, momentum, force);
     }
   }
 }

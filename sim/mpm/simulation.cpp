@@ -7,11 +7,16 @@
 
 #include "sim/mpm/checkpoint.h"
 #include "sim/mpm/density.h"
+#include "sim/mpm/levels.h"
+#include "sim/mpm/point_states.h"
+#include "sim/mpm/probes.h"
 #include "sim/mpm/snapshot.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
 #include "sim/plan/step_bound.h"
 #include "sim/report/measure.h"
+#include "sim/report/pieces.h"
+#include "sim/surface/skin.h"
 
 namespace lather::mpm {
 namespace {
@@ -28,38 +33,54 @@ class MpmSimulation final : public Simulation {
   MpmSimulation(const Plan& plan, int threads)
       : plan_(plan), threads_(threads), model_(plan), stepper_(model_, threads), snapshot_(plan.scene) {
     const Scene& scene = plan.scene;
-    const std::vector<Field> fields = planned_fields(scene);
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-      state_.sets.emplace_back(scene.dimension, fields, scene.domain.box.min, scene.spacing);
+    for (const Material& m : scene.materials)
+      state_.sets.emplace_back(scene.dimension, planned_fields(scene, m), scene.domain.box.min,
+                               scene.spacing);
+    state_.since_recovery.assign(scene.materials.size(), 0);
     seed_points(scene, [&](const Seed& s) {
       state_.sets[s.material].add(s.position, s.velocity, s.velocity_gradient, s.id);
       state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
+      state_.next_id = s.id + 1;
     });
+    state_.emitters.resize(scene.emitters.size());
+    state_.points_emitted.assign(scene.materials.size(), 0);
+    state_.left.resize(scene.materials.size());
+    state_.probes = first_probe_states(scene);
+    report_.probes = empty_probe_series(scene);
     report_.scene_name = scene.name;
     report_.scene_hash = scene_hash(scene);
     report_.version = version();
     report_.kernel_level = to_string(plan.choices.kernel_level);
     report_.threads = threads;
-    report_.warnings = plan.warnings;
     measure(0);
+    sample_probes(state_, model_, threads_, report_.probes);
   }
 
   bool step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) override {
     if (index <= measured_frame_) return true;
     const double target = index / plan_.scene.frame_rate;
     while (state_.time < target) {
+      stepper_.emit(state_);
       const double left = target - state_.time;
       const double steps = steps_for(left, step_limit());
       step(left / steps);
       if (steps == 1) state_.time = target;
+      sample_probes(state_, model_, threads_, report_.probes);
       if (!heartbeat({index, state_.time, last_step_, state_.step})) return false;
     }
     measure(index);
     return true;
   }
 
-  [[nodiscard]] Frame frame() const override { return snapshot_.take(state_, plan_, measured_frame_); }
+  [[nodiscard]] Frame frame() const override {
+    Frame frame = snapshot_.take(state_, plan_, measured_frame_);
+    if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
+    return frame;
+  }
   [[nodiscard]] const Report& report() const override { return report_; }
+  void visit_points(const std::function<void(const PointState&)>& visit) const override {
+    visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
+  }
 
   [[nodiscard]] std::string save() const override {
     return write_checkpoint(state_, report_, measured_frame_, checkpoint_key());
@@ -67,6 +88,7 @@ class MpmSimulation final : public Simulation {
   void restore(const std::string& bytes) override {
     read_checkpoint(bytes, checkpoint_key(), state_, report_, measured_frame_);
     stepper_.forget_grid();
+    skins_.clear();
   }
 
  private:
@@ -91,7 +113,7 @@ class MpmSimulation final : public Simulation {
     const StepResult seen = stepper_.step(state_, dt);
     check(seen, step, time, dt);
     last_step_ = dt;
-    count_removed(seen.dropped);
+    if (plan_.scene.numerics.integration == Integration::kSemiImplicit) count_solve(seen.solve);
     report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
     report_.largest_time_step = std::max(report_.largest_time_step, dt);
     report_.largest_cfl = std::max(report_.largest_cfl, seen.largest_cells);
@@ -108,7 +130,7 @@ class MpmSimulation final : public Simulation {
     d.time = time;
     if (!seen.finite) {
       d.kind = "non-finite";
-      d.quantity = "a point's velocity, J or elastic strain";
+      d.quantity = "a point's velocity, J, elastic strain or deformation";
       d.value = "not a finite number";
     } else if (seen.collapsed) {
       d.kind = "runaway";
@@ -123,19 +145,54 @@ class MpmSimulation final : public Simulation {
       return;
     }
     const Numerics& n = plan_.scene.numerics;
-    d.advice = n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") +
-                                     "; the step bound is " + with_unit(plan_.step_bound, "s") + "."
-                               : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
+    d.advice =
+        n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") + "; the step bound is " +
+                              with_unit(plan_.step_bound, "s") + "."
+        : n.integration == Integration::kSemiImplicit
+            ? "Lower /numerics/implicit_step_factor from " + with_unit(n.implicit_step_factor, "") + "."
+            : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
     throw SimulationError(d);
   }
 
-  void count_removed(std::uint64_t points) {
-    report_.points_removed += points;
-    // All points of a material weigh the same; what is gone is what is no longer there.
-    double present = 0;
-    for (std::size_t m = 0; m < state_.sets.size(); ++m)
-      present += static_cast<double>(state_.sets[m].size()) * static_cast<double>(model_.materials[m].mass);
-    if (points > 0 && !report_.frames.empty()) report_.mass_removed = report_.frames.front().mass - present;
+  /// A run whose solver stops early goes on: what is left of the residual acts like a small force, and
+  /// a state that it spoils is found by check().
+  [[nodiscard]] std::string unconverged_warning() const {
+    const SolverTotals& s = report_.solver;
+    return std::to_string(s.unconverged) + " of " + std::to_string(s.solves) +
+           " semi-implicit steps stopped at /numerics/solver_iterations (" +
+           std::to_string(plan_.scene.numerics.solver_iterations) +
+           ") before /numerics/solver_tolerance was met; raise the one, or take shorter steps.";
+  }
+
+  void count_solve(const SolveFigures& solve) {
+    SolverTotals& s = report_.solver;
+    ++s.solves;
+    s.iterations += static_cast<std::uint64_t>(solve.iterations);
+    s.most_iterations = std::max(s.most_iterations, solve.iterations);
+    s.unconverged += solve.converged ? 0 : 1;
+    s.convex += solve.convex ? 1 : 0;
+  }
+
+  /// What came in and went out since the start.
+  void report_flows(FrameMeasure& m) {
+    for (std::size_t s = 0; s < state_.sets.size(); ++s) {
+      const auto mass = static_cast<double>(model_.materials[s].mass);
+      m.points_emitted += state_.points_emitted[s];
+      m.mass_emitted += mass * static_cast<double>(state_.points_emitted[s]);
+      m.points_left += state_.left[s].points;
+      m.mass_left += mass * state_.left[s].shares;
+    }
+    m.points_inserted = state_.resampled.inserted;
+    m.points_merged = state_.resampled.merged;
+    m.resampling_momentum = state_.resampled.momentum_change;
+    m.points_removed = state_.removed.points;
+    m.mass_removed = state_.removed.mass;
+    report_.emitters.clear();
+    for (std::size_t e = 0; e < state_.emitters.size(); ++e) {
+      const EmitterState& own = state_.emitters[e];
+      report_.emitters.push_back(
+          {plan_.scene.emitters[e].name, own.releases, own.points, own.delayed, own.waited, own.waiting});
+    }
   }
 
   [[nodiscard]] std::uint64_t point_count() const {
@@ -145,22 +202,39 @@ class MpmSimulation final : public Simulation {
   }
 
   void measure(int index) {
-    count_removed(stepper_.sort_when_drifted(state_));
+    stepper_.sort_when_drifted(state_);
+    stepper_.detect_tearing(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     measure_density(stepper_, state_, model_, m);
+    const Pieces pieces = find_pieces(state_.sets, model_.bounds);
+    m.pieces = pieces.count;
+    m.largest_piece_share = pieces.largest_share;
+    m.second_piece_share = pieces.second_share;
     m.frame = index;
     m.time = state_.time;
     m.step = state_.step;
+    if (const auto voids = stepper_.interior_voids(state_))
+      m.interior_voids = static_cast<std::int64_t>(*voids);
+    report_flows(m);
+    if (plan_.scene.wants_skin()) measure_skin(index, m);
     report_.frames.push_back(m);
     measured_frame_ = index;
     report_.simulated_time = state_.time;
+    report_.warnings = plan_.warnings;
+    if (report_.solver.unconverged > 0) report_.warnings.push_back(unconverged_warning());
     if (report_.wall_seconds > 0)
       report_.point_steps_per_second = static_cast<double>(report_.point_steps) / report_.wall_seconds;
     report_.stages.clear();
     for (const std::string& name : plan_.stages)
       for (int s = 0; s < kStageCount; ++s)
-        if (name == kStageNames[static_cast<std::size_t>(s)])
+        if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
           report_.stages.push_back({name, stepper_.clock().seconds(static_cast<Stage>(s))});
+  }
+
+  void measure_skin(int index, FrameMeasure& m) {
+    skins_ = skins_of(snapshot_.take(state_, plan_, index), threads_);
+    m.skin_volume = 0;
+    for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
   }
 
   Plan plan_;
@@ -170,6 +244,7 @@ class MpmSimulation final : public Simulation {
   Stepper<Real> stepper_;
   Snapshot snapshot_;
   Report report_;
+  std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
   int measured_frame_ = -1;
   double last_step_ = 0;
 };

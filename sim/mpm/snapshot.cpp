@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <variant>
-
-#include "sim/plan/seed.h"
 
 namespace lather::mpm {
 namespace {
@@ -34,53 +30,28 @@ std::array<float, 3> as_float(const Vec3& v) {
 }
 
 template <class Real>
-double scalar_of(const ParticleSet<Real>& set, const Slot& s, const std::string& name) {
+double scalar_of(const ParticleSet<Real>& set, const Material& material, const Slot& s,
+                 const std::string& name) {
   const auto lane = static_cast<int>(s.lane);
   if (name == "speed") return set.velocity(s.tile, lane).norm();
   if (name == "J")
     return 1 + static_cast<double>(set.template values<Real>(s.tile, Field::kVolumeChange)[lane]);
-  return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
-}
-
-/// Height of an obstacle that is ground: a visible plane at rest that faces straight up.
-std::optional<double> ground_height(const Obstacle& obstacle) {
-  const Shape* shape = obstacle.shape.get();
-  while (const auto* placed = std::get_if<PlacedShape>(&shape->kind)) shape = placed->shape.get();
-  if (!obstacle.visible || !std::holds_alternative<PlaneShape>(shape->kind) ||
-      !std::holds_alternative<AtRest>(obstacle.motion))
-    return std::nullopt;
-  const Vec3 n = normal(*obstacle.shape, Vec3::Zero(), 1e-3);
-  if (n.y() < 1 - 1e-9) return std::nullopt;
-  return -distance(*obstacle.shape, Vec3::Zero());
+  if (name == "plastic_strain")
+    return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
+  if (!set.layout().has(Field::kPlasticity)) return 0;  // a material that does not tear
+  const Real plasticity = set.template values<Real>(s.tile, Field::kPlasticity)[lane];
+  if (name == "plasticity") return static_cast<double>(plasticity);
+  return plasticity > static_cast<Real>(material.tearing.tear_threshold) ? 1 : 0;
 }
 
 }  // namespace
 
-Snapshot::Snapshot(const Scene& scene) : floor_height_(scene.domain.box.min.y()) {
-  const double detail = std::max(scene.spacing, scene.domain.box.extent().maxCoeff() / 100);
-  for (const Obstacle& o : scene.obstacles) {
-    const std::optional<double> ground = scene.dimension == 3 ? ground_height(o) : std::nullopt;
-    if (ground) floor_height_ = std::max(floor_height_, *ground);
-    meshes_.push_back(o.visible && !ground ? std::make_shared<const TriangleMesh>(
-                                                 tessellate(*o.shape, scene.domain.box, detail))
-                                           : nullptr);
-  }
-}
-
 template <class Real>
 Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) const {
-  const Scene& scene = plan.scene;
-  Frame f;
-  f.index = index;
-  f.time = state.time;
-  f.dimension = scene.dimension;
-  f.point_radius = 0.5 * point_distance(scene);
-  f.domain = scene.domain.box;
-  f.floor_height = floor_height_;
+  Frame f = scenery_.frame(index, state.time);
   for (const std::string& name : plan.scalars)
     f.points.scalars.push_back({name, name == "speed" ? "m/s" : "1", {}});
   for (std::size_t m = 0; m < state.sets.size(); ++m) {
-    f.material_names.push_back(scene.materials[m].name);
     for (const Slot& s : slots_by_id(state.sets[m])) {
       const auto lane = static_cast<int>(s.lane);
       f.points.position.push_back(as_float(state.sets[m].position(s.tile, lane)));
@@ -88,13 +59,10 @@ Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) cons
       f.points.id.push_back(s.id);
       f.points.material.push_back(static_cast<std::uint8_t>(m));
       for (PointScalar& scalar : f.points.scalars)
-        scalar.values.push_back(static_cast<float>(scalar_of(state.sets[m], s, scalar.name)));
+        scalar.values.push_back(
+            static_cast<float>(scalar_of(state.sets[m], plan.scene.materials[m], s, scalar.name)));
     }
   }
-  for (std::size_t o = 0; o < meshes_.size(); ++o)
-    if (meshes_[o])
-      f.obstacles.push_back(
-          {scene.obstacles[o].name, meshes_[o], pose_at(scene.obstacles[o].motion, f.time)});
   return f;
 }
 

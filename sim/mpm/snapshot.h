@@ -1,24 +1,20 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "sim/frame.h"
 #include "sim/mpm/step.h"
+#include "sim/scenery.h"
 
 namespace lather::mpm {
 
-/// Makes frames from states; keeps the obstacles' meshes, which all frames share.
+/// Makes frames from states.
 class Snapshot {
  public:
-  explicit Snapshot(const Scene& scene);
+  explicit Snapshot(const Scene& scene) : scenery_(scene) {}
 
   template <class Real>
   [[nodiscard]] Frame take(const State<Real>& state, const Plan& plan, int index) const;
 
  private:
-  std::vector<std::shared_ptr<const TriangleMesh>> meshes_;  // null: not visible, or drawn as the floor
-  double floor_height_;
+  Scenery scenery_;
 };
 
 }  // namespace lather::mpm

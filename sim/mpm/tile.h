@@ -35,4 +35,10 @@ struct Tile {
   }
 };
 
+/// The tile of a block's point `first`, a multiple of 16.
+template <class Real, int Dim>
+inline Tile<Real, Dim> tile_at(const mpm::BlockPoints<Real>& points, int first) {
+  return {points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
+}
+
 }  // namespace lather::LATHER_LEVEL

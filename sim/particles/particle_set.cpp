@@ -13,32 +13,48 @@ ParticleSet<Real>::ParticleSet(int dimension, const std::vector<Field>& fields, 
     : dimension_(dimension), origin_(origin), cell_(cell), layout_(make_layout<Real>(dimension, fields)) {}
 
 template <class Real>
-void ParticleSet<Real>::add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient,
-                            std::uint32_t id) {
-  const int lane = static_cast<int>(size_ % kTile);
-  const std::size_t t = size_ / kTile;
+PointSlot ParticleSet<Real>::add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient,
+                                 std::uint32_t id) {
+  const PointSlot slot = {next_ / kTile, static_cast<int>(next_ % kTile)};
+  const auto [t, lane] = slot;
   if (lane == 0) {
     lines_.resize(lines_.size() + static_cast<std::size_t>(layout_.stride) / sizeof(Line));
     std::fill_n(values<std::uint32_t>(t, Field::kId), kTile, kNoPoint);
   }
+  place(slot, position);
   for (int a = 0; a < dimension_; ++a) {
-    const double x = (position[a] - origin_[a]) / cell_;
-    const double whole = std::floor(x);
-    constexpr double kQuanta = static_cast<double>(std::int64_t{1} << FixedPoint<Real>::kBits);
-    auto quanta = static_cast<std::int64_t>((x - whole) * kQuanta);
-    if (quanta >= std::int64_t{1} << FixedPoint<Real>::kBits)
-      quanta = (std::int64_t{1} << FixedPoint<Real>::kBits) - 1;
-    values<Word>(t, Field::kFraction, a)[lane] = static_cast<Word>(quanta);
-    values<std::int16_t>(t, Field::kCell, a)[lane] = static_cast<std::int16_t>(whole);
     values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(velocity[a]);
     if (layout_.has(Field::kAffine))
       for (int b = 0; b < dimension_; ++b)
         values<Real>(t, Field::kAffine, a * dimension_ + b)[lane] =
             static_cast<Real>(velocity_gradient(a, b));
   }
+  if (layout_.has(Field::kShare)) values<Real>(t, Field::kShare)[lane] = Real(1);
   values<std::uint32_t>(t, Field::kId)[lane] = id;
-  ranges_.clear();
+  ++next_;
   ++size_;
+  return slot;
+}
+
+template <class Real>
+void ParticleSet<Real>::remove(const PointSlot& slot) {
+  values<std::uint32_t>(slot.tile, Field::kId)[slot.lane] = kNoPoint;
+  --size_;
+  ranges_.clear();
+}
+
+template <class Real>
+void ParticleSet<Real>::place(const PointSlot& slot, const Vec3& position) {
+  constexpr std::int64_t kQuanta = std::int64_t{1} << FixedPoint<Real>::kBits;
+  for (int a = 0; a < dimension_; ++a) {
+    const double x = (position[a] - origin_[a]) / cell_;
+    const double whole = std::floor(x);
+    const auto quanta = static_cast<std::int64_t>((x - whole) * static_cast<double>(kQuanta));
+    values<Word>(slot.tile, Field::kFraction, a)[slot.lane] =
+        static_cast<Word>(std::min(quanta, kQuanta - 1));
+    values<std::int16_t>(slot.tile, Field::kCell, a)[slot.lane] = static_cast<std::int16_t>(whole);
+  }
+  ranges_.clear();
 }
 
 template <class Real>
@@ -62,8 +78,8 @@ Vec3 ParticleSet<Real>::velocity(std::size_t t, int lane) const {
 template <class Real>
 void ParticleSet<Real>::save(std::string& to) const {
   const auto put = [&to](const void* from, std::size_t n) { to.append(static_cast<const char*>(from), n); };
-  const std::uint64_t head[4] = {size_, lines_.size(), ranges_.size(),
-                                 static_cast<std::uint64_t>(layout_.stride)};
+  const std::uint64_t head[5] = {size_, lines_.size(), ranges_.size(),
+                                 static_cast<std::uint64_t>(layout_.stride), next_};
   put(head, sizeof head);
   put(ranges_.data(), ranges_.size() * sizeof(BlockRange));
   put(lines_.data(), bytes());
@@ -73,16 +89,17 @@ template <class Real>
 void ParticleSet<Real>::restore(const char*& from, const char* end) {
   const auto get = [&](void* to, std::size_t n) {
     if (static_cast<std::size_t>(end - from) < n) throw std::runtime_error("The checkpoint ends too early.");
-    std::memcpy(to, from, n);
+    if (n > 0) std::memcpy(to, from, n);  // an empty set has no memory to copy to
     from += n;
   };
-  std::uint64_t head[4];
+  std::uint64_t head[5];
   get(head, sizeof head);
   const auto left = static_cast<std::uint64_t>(end - from);
   if (head[3] != static_cast<std::uint64_t>(layout_.stride) || head[1] > left / sizeof(Line) ||
       head[2] > left / sizeof(BlockRange))
     throw std::runtime_error("The checkpoint was written for other particle fields.");
   size_ = head[0];
+  next_ = head[4];
   lines_.resize(head[1]);
   ranges_.resize(head[2]);
   get(ranges_.data(), ranges_.size() * sizeof(BlockRange));

@@ -11,6 +11,18 @@
 
 namespace lather {
 
+/// Where a point stands in its set: valid until the next sort.
+struct PointSlot {
+  std::size_t tile = 0;
+  int lane = 0;
+};
+
+/// Points that left an open domain.
+struct Departures {
+  std::uint64_t points = 0;
+  double shares = 0;  ///< their sum, exact (see Field::kShare)
+};
+
 /// The points of one material, in tiles sorted by block (tile_layout.h, block.h). Grown, sorted and compacted
 /// here only.
 template <class Real>
@@ -21,12 +33,19 @@ class ParticleSet {
   /// Positions are relative to `origin` in cells of width `cell` (m).
   ParticleSet(int dimension, const std::vector<Field>& fields, const Vec3& origin, double cell);
 
-  /// Appends a point at rest strain: J = 1, be = I. Call sort() before anything else reads the set.
-  void add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient, std::uint32_t id);
+  /// Appends a point at rest strain, with a whole share: J = 1, be = I. Call sort() before a step reads the
+  /// set.
+  PointSlot add(const Vec3& position, const Vec3& velocity, const Mat3& velocity_gradient, std::uint32_t id);
+
+  /// Takes a point away; its lane holds nothing until the next sort, which a step must wait for.
+  void remove(const PointSlot& slot);
+
+  /// Moves a point to `position` (m). Call sort() before a step reads the set.
+  void place(const PointSlot& slot, const Vec3& position);
 
   /// Sorts by block, wraps periodic axes, drops points that left an open domain. Stable, same result for any
-  /// number of threads. Returns how many points were dropped.
-  std::uint64_t sort(const CellBounds& bounds, int threads);
+  /// number of threads. Returns what was dropped.
+  Departures sort(const CellBounds& bounds, int threads);
 
   [[nodiscard]] const std::vector<BlockRange>& ranges() const { return ranges_; }
   [[nodiscard]] const TileLayout& layout() const { return layout_; }
@@ -55,6 +74,10 @@ class ParticleSet {
 
   [[nodiscard]] Vec3 position(std::size_t t, int lane) const;  ///< m; periodic axes wrapped when last sorted
   [[nodiscard]] Vec3 velocity(std::size_t t, int lane) const;  ///< m/s
+  /// Mass and volume of a point over those of a point as it was sampled; 1 where shares are not planned.
+  [[nodiscard]] double share(std::size_t t, int lane) const {
+    return layout_.has(Field::kShare) ? static_cast<double>(values<Real>(t, Field::kShare)[lane]) : 1.0;
+  }
 
   /// The raw state for a checkpoint, and back.
   void save(std::string& to) const;
@@ -77,6 +100,7 @@ class ParticleSet {
   std::vector<Line> lines_;
   std::vector<BlockRange> ranges_;
   std::uint64_t size_ = 0;
+  std::uint64_t next_ = 0;  // the lane that add() fills: the end of the sorted tiles and of what came after
 };
 
 }  // namespace lather

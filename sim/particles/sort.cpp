@@ -12,7 +12,12 @@ namespace lather {
 namespace {
 
 constexpr std::size_t kChunkTiles = 256;
-constexpr std::uint64_t kDropped = ~std::uint64_t{0};
+constexpr std::uint64_t kEmpty = ~std::uint64_t{0};  // the key of a lane without a point
+constexpr std::uint64_t kLeft = kEmpty - 1;          // … of a point that left the domain
+
+bool dropped(std::uint64_t key) {
+  return key >= kLeft;
+}
 
 std::int32_t floor_mod(std::int32_t a, std::int32_t n) {
   return ((a % n) + n) % n;
@@ -23,9 +28,10 @@ std::int32_t floor_mod(std::int32_t a, std::int32_t n) {
 /// What one chunk of tiles holds: the key of every lane, and its distinct blocks with where their points go.
 template <class Real>
 struct ParticleSet<Real>::Chunk {
-  std::vector<std::uint64_t> keys;    // one a lane; kDropped for empty lanes and dropped points
+  std::vector<std::uint64_t> keys;    // one a lane
   std::vector<std::uint64_t> blocks;  // distinct, ascending
   std::vector<std::int64_t> cursor;   // per block: its number of points here, then the slot of the next one
+  Departures left;
 
   std::size_t find(std::uint64_t key) const {
     return static_cast<std::size_t>(std::lower_bound(blocks.begin(), blocks.end(), key) - blocks.begin());
@@ -34,7 +40,7 @@ struct ParticleSet<Real>::Chunk {
 
 template <class Real>
 std::uint64_t ParticleSet<Real>::key_of(std::size_t t, int lane, const CellBounds& bounds) {
-  if (values<std::uint32_t>(t, Field::kId)[lane] == kNoPoint) return kDropped;
+  if (values<std::uint32_t>(t, Field::kId)[lane] == kNoPoint) return kEmpty;
   BlockCoord block{};
   for (int a = 0; a < dimension_; ++a) {
     auto& cell = values<std::int16_t>(t, Field::kCell, a)[lane];
@@ -46,7 +52,7 @@ std::uint64_t ParticleSet<Real>::key_of(std::size_t t, int lane, const CellBound
       home = floor_mod(home, bounds.cells[axis]);
       cell = static_cast<std::int16_t>(home - up);
     } else if (bounds.open && (cell < 0 || cell >= bounds.cells[axis])) {
-      return kDropped;
+      return kLeft;
     }
     block[axis] = home >> 2;
   }
@@ -82,7 +88,7 @@ void ParticleSet<Real>::fill_empty_lanes(std::size_t range) {
 }
 
 template <class Real>
-std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
+Departures ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
   const std::size_t tile_count = tiles();
   const std::size_t chunk_count = (tile_count + kChunkTiles - 1) / kChunkTiles;
   std::vector<Chunk> chunks(chunk_count);
@@ -93,11 +99,14 @@ std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
     const auto c = static_cast<std::size_t>(index);
     Chunk& chunk = chunks[c];
     chunk.keys.resize(chunk_tiles(c) * kTile);
-    std::uint64_t last = kDropped;
+    std::uint64_t last = kEmpty;
     for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
-      const std::uint64_t key = key_of(c * kChunkTiles + i / kTile, static_cast<int>(i % kTile), bounds);
+      const std::size_t t = c * kChunkTiles + i / kTile;
+      const auto lane = static_cast<int>(i % kTile);
+      const std::uint64_t key = key_of(t, lane, bounds);
       chunk.keys[i] = key;
-      if (key != last && key != kDropped) chunk.blocks.push_back(key);
+      if (key != last && !dropped(key)) chunk.blocks.push_back(key);
+      if (key == kLeft) ++chunk.left.points, chunk.left.shares += share(t, lane);
       last = key;
     }
     std::sort(chunk.blocks.begin(), chunk.blocks.end());
@@ -105,7 +114,7 @@ std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
     chunk.cursor.assign(chunk.blocks.size(), 0);
     std::size_t at = 0;
     for (const std::uint64_t key : chunk.keys) {
-      if (key == kDropped) continue;
+      if (dropped(key)) continue;
       if (chunk.blocks[at] != key) at = chunk.find(key);
       ++chunk.cursor[at];
     }
@@ -149,7 +158,7 @@ std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
     Chunk& chunk = chunks[c];
     std::size_t at = 0;
     for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
-      if (chunk.keys[i] == kDropped) continue;
+      if (dropped(chunk.keys[i])) continue;
       if (chunk.blocks[at] != chunk.keys[i]) at = chunk.find(chunk.keys[i]);
       const auto slot = static_cast<std::size_t>(chunk.cursor[at]++);
       copy_point(sorted.data()->bytes + slot / kTile * stride, static_cast<int>(slot % kTile),
@@ -160,9 +169,11 @@ std::uint64_t ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
   ranges_ = std::move(ranges);
   parallel_for(threads, static_cast<std::int64_t>(ranges_.size()), 64,
                [&](std::int64_t r) { fill_empty_lanes(static_cast<std::size_t>(r)); });
-  const std::uint64_t dropped = size_ - kept;
+  Departures left;
+  for (const Chunk& chunk : chunks) left.points += chunk.left.points, left.shares += chunk.left.shares;
   size_ = kept;
-  return dropped;
+  next_ = static_cast<std::uint64_t>(tiles()) * kTile;
+  return left;
 }
 
 template class ParticleSet<float>;

@@ -8,6 +8,7 @@
 #include "sim/plan/seed.h"
 #include "sim/plan/stages.h"
 #include "sim/plan/step_bound.h"
+#include "sim/plan/void_search.h"
 
 namespace lather {
 namespace {
@@ -29,9 +30,24 @@ std::vector<std::string> planned_stages(const Scene& scene) {
       scene.domain.boundary != Boundary::kOpen && !(scene.domain.periodic[0] && scene.domain.periodic[1] &&
                                                     (scene.dimension == 2 || scene.domain.periodic[2]));
   const bool contact = walls || !scene.obstacles.empty();
+  const auto any_material = [&](bool (TearingParameters::*property)() const) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const Material& m) { return (m.tearing.*property)(); });
+  };
+  const bool tears = any_material(&TearingParameters::tears);
+  const bool recovers = any_material(&TearingParameters::recovers);
+  const bool semi_implicit = scene.numerics.integration == Integration::kSemiImplicit;
   for (int i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
+    if (scene.emitters.empty() && stage == Stage::kEmit) continue;
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
+    if (stage == Stage::kAvoidVoid && !scene.numerics.resampling) continue;
+    if (stage == Stage::kRemoveSubgrid && !(tears && scene.numerics.subgrid_removal)) continue;
+    if (!tears &&
+        (stage == Stage::kDetectTearing || stage == Stage::kLimitForces || stage == Stage::kLimitDeformation))
+      continue;
+    if (!recovers && stage == Stage::kRecovery) continue;
+    if (!semi_implicit && stage == Stage::kSolveVelocities) continue;
     stages.emplace_back(kStageNames[static_cast<std::size_t>(i)]);
   }
   return stages;
@@ -42,20 +58,31 @@ std::vector<std::string> planned_stages(const Scene& scene) {
 std::uint64_t expected_memory(const Plan& plan) {
   const Scene& s = plan.scene;
   const double real = s.numerics.precision == Precision::kFloat ? 4 : 8;
+  // Resampling adds points: the paper's scenes grow by up to a third.
+  const double points = (s.numerics.resampling ? 1.5 : 1.0) * static_cast<double>(plan.points);
   double particles = 0;
   for (const PlannedMaterial& m : plan.materials)
     particles += static_cast<double>(m.points) * m.bytes_per_point;
+  particles *= points / static_cast<double>(plan.points);
   const double points_per_block = std::pow(4, s.dimension) * s.points_per_cell;
   // Half as many blocks again as a full packing needs, and a shell of grid blocks around them.
-  const double blocks = 1.5 * static_cast<double>(plan.points) / points_per_block + 27;
+  const double blocks = 1.5 * points / points_per_block + 27;
   const double quads = s.numerics.transfer == Transfer::kApic ? 1 : 2;
   const double buffers = blocks * quads * 4 * real * (std::pow(8, s.dimension) + 4);
-  const double grid = 3 * blocks * quads * 4 * real * std::pow(4, s.dimension);
-  const double frame =
-      3.0 * static_cast<double>(plan.points) * (29 + 4 * static_cast<double>(plan.scalars.size()));
+  const double vectors = s.numerics.integration == Integration::kSemiImplicit ? 4 : 0;  // the solver's
+  const double grid = 3 * blocks * (quads + vectors) * 4 * real * std::pow(4, s.dimension);
+  const double resampling = s.numerics.resampling ? 60 * points : 0;  // the points' bins, distances
+  double cells = 1;
+  for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
+  const double voids = std::min(cells, kMostSearchedCells);
+  const double frame = 3.0 * points * (29 + 4 * static_cast<double>(plan.scalars.size()));
+  // The skin's grid and mesh by its area, at the most that of loose points; files are made one at a time.
+  const double skin = s.wants_skin() ? 600.0 * points : 0;
+  const double files = s.output.particles.empty() ? 0 : 200.0 * points;
   const double samples =
       static_cast<double>(s.output.width) * s.output.height * s.output.supersampling * s.output.supersampling;
-  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + samples * 60 + 128e6);
+  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + resampling + voids + skin +
+                                    files + samples * 60 + 128e6);
 }
 
 void warn(Plan& plan) {
@@ -76,7 +103,16 @@ void warn(Plan& plan) {
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
   }
-  if (s.numerics.time_step > plan.step_bound)
+  const bool tears = std::any_of(s.materials.begin(), s.materials.end(),
+                                 [](const Material& m) { return m.tearing.tears(); });
+  if (s.numerics.subgrid_removal && !tears)
+    plan.warnings.push_back(
+        "/numerics/subgrid_removal removes nothing: only weak points go, and no material has a finite "
+        "tear_threshold.");
+  if ((s.look.color_by == "plasticity" || s.look.color_by == "weak") && !tears)
+    plan.warnings.push_back("Points are coloured by \"" + s.look.color_by +
+                            "\", which is 0 everywhere: no material has a finite tear_threshold.");
+  if (s.numerics.integration == Integration::kExplicit && s.numerics.time_step > plan.step_bound)
     plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") +
                             ", is longer than a pressure wave takes through a cell, " +
                             number(plan.step_bound, "s") +
@@ -85,11 +121,26 @@ void warn(Plan& plan) {
 
 }  // namespace
 
-std::vector<Field> planned_fields(const Scene& scene) {
+std::vector<std::string> planned_scalars(const Scene& scene) {
+  std::vector<std::string> scalars;
+  if (scene.look.color_by != "material") scalars.push_back(scene.look.color_by);
+  for (const std::string& name : scene.output.scalars)
+    if (name != scene.look.color_by) scalars.push_back(name);
+  return scalars;
+}
+
+std::vector<Field> planned_fields(const Scene& scene, const Material& material) {
   std::vector<Field> fields = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
                                Field::kElasticStrain, Field::kId,       Field::kCell};
   if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
-  if (scene.look.color_by == "plastic_strain") fields.push_back(Field::kPlasticStrain);
+  const std::vector<std::string> scalars = planned_scalars(scene);
+  if (std::find(scalars.begin(), scalars.end(), "plastic_strain") != scalars.end())
+    fields.push_back(Field::kPlasticStrain);
+  if (scene.numerics.resampling) fields.push_back(Field::kShare);
+  if (material.tearing.tears()) {
+    fields.push_back(Field::kDeformation);
+    fields.push_back(Field::kPlasticity);
+  }
   return fields;
 }
 
@@ -107,24 +158,28 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   const double per_frame = steps_for(frame_span, planned_step(scene));
   plan.time_step = frame_span / per_frame;
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
-  if (scene.look.color_by != "material") plan.scalars.push_back(scene.look.color_by);
+  plan.scalars = planned_scalars(scene);
 
-  const std::vector<Field> fields = planned_fields(scene);
-  const TileLayout layout = layout_of(scene, fields);
-  const std::vector<std::uint64_t> points = count_points(scene);
+  const PointCounts points = count_points(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::vector<Field> fields = planned_fields(scene, scene.materials[i]);
+    const TileLayout layout = layout_of(scene, fields);
     PlannedMaterial m;
     m.name = scene.materials[i].name;
-    m.points = points[i];
+    m.points = points.at_start[i] + points.emitted[i];
+    m.points_emitted = points.emitted[i];
     for (const Field f : fields) {
       const int at = static_cast<int>(f);
       m.fields.push_back({to_string(f), layout.components[at] * layout.component_bytes[at]});
     }
     m.bytes_per_point = layout.stride / kTile;
     m.wave_speed = wave_speed(scene.materials[i].herschel_bulkley);
-    m.numerical_viscosity =
-        blend_viscosity(scene, scene.materials[i].herschel_bulkley.density, plan.time_step);
+    const double density = scene.materials[i].herschel_bulkley.density;
+    m.numerical_viscosity = blend_viscosity(scene, density, plan.time_step);
+    if (scene.numerics.integration == Integration::kSemiImplicit)
+      m.numerical_viscosity += density * missing_diffusion(scene, plan.time_step);
     plan.points += m.points;
+    plan.points_emitted += m.points_emitted;
     plan.materials.push_back(std::move(m));
   }
   plan.stages = planned_stages(scene);

@@ -30,7 +30,8 @@ struct PlannedField {
 
 struct PlannedMaterial {
   std::string name;
-  std::uint64_t points = 0;
+  std::uint64_t points = 0;          ///< at the start and emitted over the run
+  std::uint64_t points_emitted = 0;  ///< of them, by emitters
   std::vector<PlannedField> fields;
   int bytes_per_point = 0;         ///< of a full tile, padding included, over its 16 lanes
   double wave_speed = 0;           ///< m/s
@@ -48,7 +49,8 @@ struct Plan {
   double step_bound = 0;             ///< s: spacing / wave speed, without the safety factor
   double time_step = 0;              ///< s: planned (an automatic step shrinks when points are fast)
   std::uint64_t steps = 0;           ///< expected
-  std::uint64_t points = 0;          ///< all materials
+  std::uint64_t points = 0;          ///< all materials, at the start and emitted over the run
+  std::uint64_t points_emitted = 0;  ///< of them, by emitters
   std::uint64_t memory_bytes =
       0;  ///< expected peak: particles, their sorted copy, grid, block buffers, frame
   std::vector<std::string> warnings;
@@ -57,9 +59,16 @@ struct Plan {
 /// Throws InputError when the scene cannot be planned (a body without points, a level the machine lacks, …).
 [[nodiscard]] Plan make_plan(const Scene& scene, const Choices& choices = {});
 
-/// Scene, choices and all derived numbers. read_plan() takes scene and choices from it and derives the rest
-/// anew.
+/// Scene, the bytes of its meshes (base64), choices and all derived numbers. read_plan() takes scene, meshes
+/// and choices from it and derives the rest anew.
 [[nodiscard]] std::string to_json(const Plan& plan);
 [[nodiscard]] Plan read_plan(std::string_view json);
+
+/// The scene of a plan, changed by overrides (pointers into the scene). Needs no kernels, so any machine can
+/// draw what another one simulated.
+[[nodiscard]] Scene read_plan_scene(std::string_view json, const std::vector<Override>& overrides = {});
+
+/// The plan's JSON with that changed scene in place of its own; its numbers stay those of the run.
+[[nodiscard]] std::string with_changed_scene(std::string_view json, const std::vector<Override>& overrides);
 
 }  // namespace lather

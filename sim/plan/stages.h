@@ -7,26 +7,48 @@
 namespace lather {
 
 enum class Stage : int {
+  kEmit,                ///< points of the releases that are due; only with emitters
   kSort,                ///< points by block, and the grid's blocks; only when points have drifted
+  kDetectTearing,       ///< 2
   kRasterize,           ///< 1, 3: mass, momentum and internal forces to block buffers
+  kLimitForces,         ///< 4, within kRasterize
   kReduce,              ///< block buffers to the grid
   kGridVelocities,      ///< 5
+  kSolveVelocities,     ///< 5, semi-implicit: velocities at the end of the step
   kGridCollisions,      ///< 6
   kCollect,             ///< grid to block buffers
   kUpdateParticles,     ///< 7, 9, 10: deformation, velocities, plastic flow
+  kLimitDeformation,    ///< 8, within kUpdateParticles
+  kRecovery,            ///< 11
   kParticleCollisions,  ///< 13
   kPositions,           ///< 14
+  kRemoveSubgrid,       ///< 12: only once an interval, between steps
+  kAvoidVoid,           ///< 15: resampling; only once an interval
 };
-inline constexpr int kStageCount = 9;
+inline constexpr int kStageCount = 17;
 
-inline constexpr std::array<const char*, kStageCount> kStageNames = {"sort",
+inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
+                                                                     "sort",
+                                                                     "detect tearing",
                                                                      "rasterize",
+                                                                     "limit forces",
                                                                      "reduce",
                                                                      "grid velocities",
+                                                                     "solve velocities",
                                                                      "grid collisions",
                                                                      "collect",
                                                                      "update particles",
+                                                                     "limit deformation",
+                                                                     "plastic recovery",
                                                                      "particle collisions",
-                                                                     "positions"};
+                                                                     "positions",
+                                                                     "remove subgrid geometry",
+                                                                     "avoid a void"};
+
+/// Whether the stage runs on its own and its time is known; else it is a part of the stage before it, whose
+/// time holds its own.
+constexpr bool timed(Stage stage) {
+  return stage != Stage::kLimitForces && stage != Stage::kLimitDeformation;
+}
 
 }  // namespace lather

@@ -11,16 +11,20 @@ double wave_speed(const HerschelBulkleyParameters& law) {
 
 double step_bound(const Scene& scene) {
   double fastest = 0;
-  for (const Body& body : scene.bodies)
+  const auto count = [&](const std::string& material) {
     for (const Material& m : scene.materials)
-      if (m.name == body.material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+      if (m.name == material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+  };
+  for (const Body& body : scene.bodies) count(body.material);
+  for (const Emitter& emitter : scene.emitters) count(emitter.material);
   return scene.spacing / fastest;
 }
 
 double planned_step(const Scene& scene) {
   const Numerics& n = scene.numerics;
+  const double factor = n.integration == Integration::kSemiImplicit ? n.implicit_step_factor : 1;
   const double step =
-      n.time_step > 0 ? n.time_step : std::min(n.safety_factor * step_bound(scene), n.max_time_step);
+      n.time_step > 0 ? n.time_step : std::min(factor * n.safety_factor * step_bound(scene), n.max_time_step);
   return std::min(step, 1 / scene.frame_rate);
 }
 
@@ -32,6 +36,15 @@ double blend_viscosity(const Scene& scene, double density, double dt) {
   if (scene.numerics.transfer == Transfer::kApic) return 0;
   const double moment = scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25;
   return density * (1 - flip_share(scene.numerics, dt)) * moment * scene.spacing * scene.spacing / dt;
+}
+
+double missing_diffusion(const Scene& scene, double dt) {
+  const Numerics& n = scene.numerics;
+  if (n.transfer == Transfer::kApic || n.flip_blend == 0) return 0;
+  // blend_viscosity() as dt tends to 0, where 1 - alpha tends to rate dt.
+  const double rate = -std::log(n.flip_blend) / n.flip_blend_reference_step;
+  const double moment = n.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25;
+  return std::max(0.0, rate * moment * scene.spacing * scene.spacing - blend_viscosity(scene, 1, dt));
 }
 
 double steps_for(double span, double step) {

@@ -19,6 +19,12 @@ const char* to_string(Field field) {
       return "affine velocity C";
     case Field::kPlasticStrain:
       return "plastic strain";
+    case Field::kShare:
+      return "share of mass";
+    case Field::kDeformation:
+      return "deformation F - I";
+    case Field::kPlasticity:
+      return "plasticity |dev Cp|";
     case Field::kId:
       return "id";
     case Field::kCell:
@@ -44,7 +50,11 @@ TileLayout make_layout(int dimension, const std::vector<Field>& fields) {
       case Field::kAffine:
         return {d * d, real};
       case Field::kPlasticStrain:
+      case Field::kPlasticity:
+      case Field::kShare:
         return {1, real};
+      case Field::kDeformation:
+        return {d == 3 ? 9 : 5, real};
       case Field::kId:
         return {1, 4};
       case Field::kCell:

@@ -20,10 +20,13 @@ enum class Field : int {
   kElasticStrain,  ///< B = be - I: xx yy zz xy xz yz in 3D; xx yy zz xy in 2D
   kAffine,         ///< APIC's C, row by row, 1/s
   kPlasticStrain,  ///< accumulated equivalent plastic strain, dimensionless
+  kShare,          ///< mass and volume, over those that a point of the material is sampled with
+  kDeformation,    ///< F - I, row by row in 3D; xx xy yx yy zz in 2D
+  kPlasticity,     ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
   kId,             ///< uint32, stable over the run; kNoPoint in empty lanes
   kCell,           ///< int16 per axis, cell index from the domain's lower corner
 };
-inline constexpr int kFieldCount = 8;
+inline constexpr int kFieldCount = 11;
 inline constexpr std::uint32_t kNoPoint = 0xffffffffU;
 
 /// A position is a cell index plus a fixed-point fraction of the cell width: plain floats would not move at a
@@ -42,12 +45,14 @@ struct FixedPoint<double> {
 };
 
 struct TileLayout {
-  std::int32_t offset[kFieldCount] = {-1, -1, -1, -1,
-                                      -1, -1, -1, -1};  ///< bytes from the tile's start; -1: not planned
+  std::int32_t offset[kFieldCount];  ///< bytes from the tile's start; -1: not planned
   std::int32_t components[kFieldCount] = {};
   std::int32_t component_bytes[kFieldCount] = {};  ///< of one value
   std::int32_t stride = 0;                         ///< bytes of a tile, a multiple of 64
 
+  TileLayout() {
+    for (std::int32_t& at : offset) at = -1;
+  }
   [[nodiscard]] bool has(Field f) const { return offset[static_cast<int>(f)] >= 0; }
 };
 

@@ -29,6 +29,7 @@ class PointMeasure {
   PointMeasure(const Scene& scene, const Material& material, const ParticleSet<Real>& set)
       : scene_(scene),
         law_(material.herschel_bulkley),
+        tear_threshold_(static_cast<Real>(material.tearing.tear_threshold)),
         set_(set),
         volume_(std::pow(scene.spacing, scene.dimension) / scene.points_per_cell),
         moment_((scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25) * scene.spacing *
@@ -43,7 +44,8 @@ class PointMeasure {
   }
 
   void add(FrameMeasure& m, std::size_t t, int lane) const {
-    const double mass = law_.density * volume_;
+    const double volume = volume_ * set_.share(t, lane);
+    const double mass = law_.density * volume;
     const Vec3 x = set_.position(t, lane);
     const Vec3 v = set_.velocity(t, lane);
     ++m.points;
@@ -63,10 +65,12 @@ class PointMeasure {
     const double trace_B =
         at(Field::kElasticStrain, 0) + at(Field::kElasticStrain, 1) + at(Field::kElasticStrain, 2);
     const ElasticEnergy e = elastic_energy(law_, j, trace_B);
-    m.elastic_volume_energy += volume_ * e.volume;
-    m.elastic_shear_energy += volume_ * e.shear;
+    m.elastic_volume_energy += volume * e.volume;
+    m.elastic_shear_energy += volume * e.shear;
     m.min_volume_ratio = std::min(m.min_volume_ratio, 1 + j);
     m.max_volume_ratio = std::max(m.max_volume_ratio, 1 + j);
+    if (set_.layout().has(Field::kPlasticity) && at(Field::kPlasticity, 0) > tear_threshold_)
+      m.weak_fraction += 1;
   }
 
  private:
@@ -83,6 +87,7 @@ class PointMeasure {
 
   const Scene& scene_;
   const HerschelBulkleyParameters& law_;
+  double tear_threshold_;  ///< as rounded for the kernels
   const ParticleSet<Real>& set_;
   double volume_;
   double moment_;
@@ -115,6 +120,7 @@ void fold(FrameMeasure& sum, const FrameMeasure& part) {
   sum.max_speed = std::max(sum.max_speed, part.max_speed);
   sum.min_volume_ratio = std::min(sum.min_volume_ratio, part.min_volume_ratio);
   sum.max_volume_ratio = std::max(sum.max_volume_ratio, part.max_volume_ratio);
+  sum.weak_fraction += part.weak_fraction;  // a count, until the end
 }
 
 }  // namespace
@@ -143,6 +149,7 @@ FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Re
         fold);
   }
   if (sum.mass > 0) sum.center_of_mass /= sum.mass;
+  if (sum.points > 0) sum.weak_fraction /= static_cast<double>(sum.points);
   if (sum.points == 0) {
     sum.lowest.setZero();
     sum.highest.setZero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,39 @@ struct StageTime {
   double seconds = 0;  ///< summed over threads
 };
 
+/// What an emitter has done.
+struct EmitterReport {
+  std::string name;
+  std::uint64_t releases = 0;  ///< copies, or layers of a stream
+  std::uint64_t points = 0;
+  std::uint64_t delayed = 0;  ///< releases that found their place occupied when they were due
+  double waited = 0;          ///< s, of all of them
+  bool waiting = false;       ///< a release is due and still waits
+};
+
+/// The samples of one probe.
+struct ProbeSeries {
+  struct Column {
+    std::string quantity;
+    std::string unit;
+  };
+  std::string name;
+  std::string type;  ///< as in the scene
+  std::vector<Column> columns;
+  std::vector<double> times;   ///< s
+  std::vector<double> values;  ///< row by row, a row a time
+};
+
 /// What one frame measured of the state, sums taken in a fixed order in double precision.
 struct FrameMeasure {
   int frame = 0;
   double time = 0;  ///< s
   std::uint64_t step = 0;
   std::uint64_t points = 0;
+  std::uint64_t points_emitted = 0;  ///< since the start, by emitters
+  std::uint64_t points_left = 0;     ///< since the start, out of an open domain
+  double mass_emitted = 0;           ///< kg
+  double mass_left = 0;              ///< kg
   std::uint64_t fingerprint =
       0;            ///< of all bits of all points: equal for any number of threads and after a resume
   double mass = 0;  ///< kg
@@ -34,6 +62,14 @@ struct FrameMeasure {
   double max_speed = 0;              ///< m/s
   double min_volume_ratio = 0;       ///< smallest J, dimensionless
   double max_volume_ratio = 0;
+  double weak_fraction = 0;          ///< of all points: torn, plasticity above the tear_threshold
+  std::int64_t interior_voids = -1;  ///< empty grid cells inside the material; -1: too large to be searched
+  // Resampling, since the start.
+  std::uint64_t points_inserted = 0;
+  std::uint64_t points_merged = 0;   ///< into others
+  double resampling_momentum = 0;    ///< sum of |change of momentum| over all resamplings, kg m/s
+  std::uint64_t points_removed = 0;  ///< by subgrid removal, since the start
+  double mass_removed = 0;           ///< with them, kg
   // Grid density m_i/h^3 at interior nodes (every cell under the kernel's support holds a point), over the
   // initial one.
   std::uint64_t interior_nodes = 0;
@@ -41,6 +77,21 @@ struct FrameMeasure {
   double density_min = 0;
   double density_max = 0;
   double density_within_5_percent = 0;  ///< fraction of interior nodes
+  std::optional<double>
+      skin_volume;  ///< enclosed by the skins of all materials, m^3; where they are asked for
+  // Connected pieces of the material; see sim/report/pieces.h.
+  std::uint64_t pieces = 0;        ///< with at least 1 % of the points each
+  double largest_piece_share = 0;  ///< of the points
+  double second_piece_share = 0;   ///< of the points, 0 where there is one piece
+};
+
+/// The solver of a semi-implicit run.
+struct SolverTotals {
+  std::uint64_t solves = 0;
+  std::uint64_t iterations = 0;   ///< of all solves
+  int most_iterations = 0;        ///< of one solve
+  std::uint64_t unconverged = 0;  ///< solves that ended short of the tolerance
+  std::uint64_t convex = 0;       ///< solves that went on without the stiffness that may be negative
 };
 
 /// What happened: measured, never planned.
@@ -62,13 +113,17 @@ struct Report {
   double largest_cfl = 0;         ///< speed dt / spacing, dimensionless
   double smallest_time_step = 0;  ///< s
   double largest_time_step = 0;   ///< s
-  std::uint64_t points_removed = 0;
-  double mass_removed = 0;  ///< kg
+  SolverTotals solver;            ///< of an explicit run: all 0
+  std::vector<EmitterReport> emitters;
+  std::vector<ProbeSeries> probes;
   std::vector<StageTime> stages;
   std::vector<FrameMeasure> frames;
   std::vector<std::string> warnings;
 };
 
 [[nodiscard]] std::string to_json(const Report& report);
+
+/// All samples as CSV with the columns probe, quantity, unit, time (s), value.
+[[nodiscard]] std::string probes_csv(const std::vector<ProbeSeries>& probes);
 
 }  // namespace lather

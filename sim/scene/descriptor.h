@@ -7,14 +7,19 @@
 
 #include "sim/scene/value.h"
 
+namespace lather {
+class MeshLibrary;
+}
+
 /// Descriptors: one table per struct says of every parameter its name, unit, range, default and meaning.
 /// Reading with errors, writing, the JSON Schema and the reference are all made from these tables and from
 /// nothing else.
 namespace lather::descriptor {
 
-/// What one reading of a document shares: its dimension and the problems found so far.
+/// What one reading of a document shares: its dimension, the meshes it names and the problems found so far.
 struct Reading {
   int dimension = 3;
+  MeshLibrary* meshes = nullptr;
   std::vector<Problem> problems;
 };
 
@@ -25,6 +30,7 @@ class Place {
   [[nodiscard]] Place at(std::string_view key) const;
   [[nodiscard]] Place at(std::size_t index) const;
   [[nodiscard]] int dimension() const { return reading_->dimension; }
+  [[nodiscard]] MeshLibrary& meshes() const { return *reading_->meshes; }
 
   /// Notes a problem with the value here; returns false, so that a reader can return it.
   bool refuse(const Value* value, const std::string& allowed, const std::string& message) const;

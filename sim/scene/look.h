@@ -18,7 +18,8 @@ struct Look {
     double field_of_view_deg = 35;  ///< vertical
   };
   Camera camera;
-  std::string color_by = "material";                 ///< "material", "speed", "J", "plastic_strain"
+  std::string style = "points";       ///< "points", or "skin": the surface around them
+  std::string color_by = "material";  ///< "material", "speed", "J", "plastic_strain", "plasticity", "weak"
   std::optional<std::array<double, 2>> color_range;  ///< none: from each frame's own values
   std::string color_map = "viridis";                 ///< "viridis", "inferno", "coolwarm", "gray"
   std::vector<std::array<double, 3>>
@@ -35,6 +36,10 @@ struct Output {
   int width = 1280;
   int height = 720;
   int supersampling = 2;  ///< samples per pixel and axis
+  // Files of every frame beside its picture, by format.
+  std::vector<std::string> particles;  ///< "ply", "vdb"
+  std::vector<std::string> skin;       ///< "obj", "ply", "vdb"
+  std::vector<std::string> scalars;    ///< that the particles carry beside what colours the picture
 };
 
 }  // namespace lather

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/scene/tables.h"
 
 namespace lather::tables {
@@ -19,6 +21,29 @@ void check_camera(const Value& value, Look::Camera& c, const Place& place) {
   if (value.find("eye") != nullptr && value.find("target") != nullptr && (c.eye - c.target).norm() < 1e-9) {
     place.at("eye").refuse(value.find("eye"), "a point other than the target", "The camera looks nowhere.");
   }
+}
+
+/// The points' scalars lie inside a skin, not on it.
+void check_look(const Value& value, Look& look, const Place& place) {
+  if (look.style != "skin" || look.color_by == "material") return;
+  place.at("color_by")
+      .refuse(value.find("color_by"), "\"material\" with the style \"skin\"",
+              "A skin is coloured by its material; draw points to see a scalar.");
+}
+
+/// Names of formats or scalars, each once.
+Codec<std::vector<std::string>> names_of(const std::vector<std::string>& names) {
+  Codec<std::vector<std::string>> codec = list_of(one_of(names), 0, names.size(), "of " + listed(names));
+  codec.read = [read = codec.read, allowed = codec.allowed](const Value& value, std::vector<std::string>& out,
+                                                            const Place& place) {
+    if (!read(value, out, place)) return false;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i), out[i]) !=
+          out.begin() + static_cast<std::ptrdiff_t>(i))
+        return place.at(i).refuse(Value(out[i]), allowed, "\"" + out[i] + "\" is named twice.");
+    return true;
+  };
+  return codec;
 }
 
 /// Two numbers, the smaller first; left out for "from each frame's own values".
@@ -75,7 +100,10 @@ const Table<Look>& look() {
       "look", "What pictures show; no influence on the simulation.",
       {optional<Look>("camera", &Look::camera, object_of(camera()), "where pictures are taken from",
                       "automatic"),
-       optional<Look>("color_by", &Look::color_by, one_of({"material", "speed", "J", "plastic_strain"}),
+       optional<Look>("style", &Look::style, one_of({"points", "skin"}),
+                      "draw the points, or the smooth surface around those of each material (3D)"),
+       optional<Look>("color_by", &Look::color_by,
+                      one_of({"material", "speed", "J", "plastic_strain", "plasticity", "weak"}),
                       "what the colour of a point shows"),
        color_range_field(),
        optional<Look>("color_map", &Look::color_map, one_of({"viridis", "inferno", "coolwarm", "gray"}),
@@ -87,17 +115,25 @@ const Table<Look>& look() {
        optional<Look>("legend", &Look::legend, flag(), "draw the legend of a scalar"),
        optional<Look>("shadows", &Look::shadows, flag(), "draw shadows"),
        optional<Look>("point_scale", &Look::point_scale, number("1", from_to(0.01, 100)),
-                      "drawn radius over half the initial distance of points")});
+                      "drawn radius over half the initial distance of points")},
+      {}, check_look);
   return table;
 }
 
 const Table<Output>& output() {
   static const Table<Output> table(
-      "output", "The pictures' size.",
+      "output", "The pictures' size, and the files that are written beside every frame.",
       {optional<Output>("width", &Output::width, integer(16, 16384), "pixels across"),
        optional<Output>("height", &Output::height, integer(16, 16384), "pixels down"),
-       optional<Output>("supersampling", &Output::supersampling, integer(1, 8),
-                        "samples per pixel and axis")});
+       optional<Output>("supersampling", &Output::supersampling, integer(1, 8), "samples per pixel and axis"),
+       optional<Output>(
+           "particles", &Output::particles, names_of({"ply", "vdb"}),
+           "files of the points, particles/NNNNN: positions, velocities, ids, materials, scalars"),
+       optional<Output>("skin", &Output::skin, names_of({"obj", "ply", "vdb"}),
+                        "files of the surface around the points of each material (3D), skin/NNNNN"),
+       optional<Output>("scalars", &Output::scalars,
+                        names_of({"speed", "J", "plastic_strain", "plasticity", "weak"}),
+                        "scalars that the files of the points carry beside the one of color_by")});
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/material/herschel_bulkley_parameters.h"
+#include "sim/material/tearing_parameters.h"
 
 namespace lather {
 
@@ -14,6 +15,7 @@ struct MaterialCard {
   std::string words;
   std::string source;
   HerschelBulkleyParameters parameters;
+  TearingParameters tearing;
 };
 
 [[nodiscard]] const std::vector<MaterialCard>& all_material_cards();

@@ -28,10 +28,13 @@ bool read_material(const Value& value, Material& out, const Place& place) {
   if (value.object() == nullptr) return place.refuse(value, "an object", "A material must be an object.");
   std::vector<std::string> known = material().names();
   for (const std::string& name : herschel_bulkley().names()) known.push_back(name);
+  for (const std::string& name : tearing().names()) known.push_back(name);
   refuse_unknown_keys(*value.object(), known, place);
-  const bool good = material().read_fields(value, out, place);
+  bool good = material().read_fields(value, out, place);
   const MaterialCard* card = find_material_card(out.preset);
   out.herschel_bulkley = card != nullptr ? card->parameters : herschel_bulkley().prototype();
+  out.tearing = card != nullptr ? card->tearing : tearing().prototype();
+  good = tearing().read_fields(value, out.tearing, place) && good;
   const bool complete = value.find("preset") != nullptr;
   return herschel_bulkley().read_fields(value, out.herschel_bulkley, place, complete) && good;
 }
@@ -72,6 +75,21 @@ const Table<HerschelBulkleyParameters>& herschel_bulkley() {
   return table;
 }
 
+const Table<TearingParameters>& tearing() {
+  using P = TearingParameters;
+  static const Table<P> table(
+      "tearing",
+      "Any material may tear: where its accumulated plasticity passes tear_threshold it is weak, carries no "
+      "tension and stretches freely.",
+      {optional<P>("tear_threshold", &P::tear_threshold, number_or_infinity("1", from_to(1e-6, 1e12)),
+                   "sigma_T: a point is weak while |dev C^p|_F exceeds it; C^p is the plastic Cauchy-Green "
+                   "tensor"),
+       optional<P>("recovery_time", &P::recovery_time, number_or_infinity("s", from_to(1e-6, kForever)),
+                   "eta_p: plastic stretches fade as lambda^exp(-t/eta_p); short: sticky, long: brittle; "
+                   "without effect where nothing tears")});
+  return table;
+}
+
 Codec<Material> material_codec() {
   Codec<Material> codec;
   codec.allowed = "an object, see material";
@@ -81,6 +99,7 @@ Codec<Material> material_codec() {
     Object object;
     material().write_fields(m, object);
     herschel_bulkley().write_fields(m.herschel_bulkley, object);
+    tearing().write_fields(m.tearing, object);
     return Value(std::move(object));
   };
   return codec;
@@ -93,6 +112,7 @@ Object material_schema() {
     if (field.presence == Presence::kRequired) parameters.emplace_back(field.name);
     field.presence = Presence::kOptional;
   }
+  for (const FieldInfo& field : tearing().info().fields) fields.push_back(field);
   Object schema = object_schema(material().info(), fields);
   schema.emplace_back("anyOf",
                       Array{Object{{"required", Array{"preset"}}}, Object{{"required", parameters}}});

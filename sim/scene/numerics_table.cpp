@@ -4,6 +4,60 @@ namespace lather::tables {
 
 using namespace descriptor;  // the vocabulary of tables
 
+namespace {
+
+/// Left out, and null, stand for "off": null lets a size or an override take it away.
+template <class T>
+Field<Numerics> switchable(const char* name, std::optional<T> Numerics::*member, const Table<T>& table,
+                           const char* meaning) {
+  Codec<std::optional<T>> codec;
+  const Codec<T> given = object_of(table);
+  codec.allowed = given.allowed + ", or null";
+  codec.schema = {{"anyOf", Array{given.schema, Object{{"type", "null"}}}}};
+  codec.read = [given](const Value& value, std::optional<T>& out, const Place& place) {
+    out.reset();
+    return std::holds_alternative<std::nullptr_t>(value.data) || given.read(value, out.emplace(), place);
+  };
+  codec.write = [given](const std::optional<T>& t) { return t ? given.write(*t) : Value(); };
+  Field<Numerics> out = optional<Numerics>(name, member, codec, meaning, "off");
+  out.write = [given, member](const Numerics& n) {
+    return n.*member ? std::optional<Value>(given.write(*(n.*member))) : std::nullopt;
+  };
+  return out;
+}
+
+}  // namespace
+
+const Table<Resampling>& resampling() {
+  using R = Resampling;
+  static const Table<R> table(
+      "resampling", "Points are inserted and merged so that no void opens inside deforming material.",
+      {optional<R>("interval", &R::interval, number("s", above_to(0, kForever)),
+                   "simulated time between two resamplings"),
+       optional<R>("velocity", &R::velocity,
+                   enumeration<NewVelocity>({{"conserving", NewVelocity::kConserving},
+                                             {"interpolated", NewVelocity::kInterpolated}}),
+                   "of a new point: the mean of the points that give it mass (keeps momentum), or "
+                   "interpolated on the grid (the paper's way)")});
+  return table;
+}
+
+const Table<SubgridRemoval>& subgrid_removal() {
+  using R = SubgridRemoval;
+  static const Table<R> table(
+      "subgrid_removal",
+      "Weak points in slivers and specks that the grid cannot resolve are removed, with their mass.",
+      {optional<R>("interval", &R::interval, number("s", above_to(0, kForever)),
+                   "simulated time between two searches"),
+       optional<R>(
+           "anisotropy", &R::anisotropy, number("1", from_to(0, 1)),
+           "a point goes where the covariance of the points within its kernel has a smaller ratio of its "
+           "least to its largest eigenvalue"),
+       optional<R>("extent", &R::extent, number("1", from_to(0, 1)),
+                   "or where the largest eigenvalue over spacing^2 is smaller than this")});
+  return table;
+}
+
 const Table<Numerics>& numerics() {
   using N = Numerics;
   static const Table<N> table(
@@ -25,7 +79,26 @@ const Table<Numerics>& numerics() {
        optional<N>("safety_factor", &N::safety_factor, number("1", above_to(0, 1)),
                    "automatic step over its bound"),
        optional<N>("max_time_step", &N::max_time_step, number("s", above_to(0, kForever)),
-                   "largest automatic step")});
+                   "largest automatic step"),
+       optional<N>("integration", &N::integration,
+                   enumeration<Integration>(
+                       {{"explicit", Integration::kExplicit}, {"semi-implicit", Integration::kSemiImplicit}}),
+                   "how velocities are advanced: from the forces at hand, or solved for with the change of "
+                   "forces over the step"),
+       optional<N>("implicit_step_factor", &N::implicit_step_factor, number("1", from_to(1, 1000)),
+                   "automatic semi-implicit step over the automatic explicit one"),
+       optional<N>("implicit_share", &N::implicit_share, number("1", from_to(0.5, 1)),
+                   "weight of the forces' change over a semi-implicit step; 1 damps waves most"),
+       optional<N>("solver_tolerance", &N::solver_tolerance, number("1", from_to(1e-6, 0.5)),
+                   "residual at which the semi-implicit solver stops, over its first one"),
+       optional<N>("solver_iterations", &N::solver_iterations, integer(1, 10'000),
+                   "most iterations of the semi-implicit solver in one step"),
+       switchable("resampling", &N::resampling, resampling(),
+                  "inserts points where deformation would open voids, and merges crowded ones; {} takes the "
+                  "defaults"),
+       switchable(
+           "subgrid_removal", &N::subgrid_removal, subgrid_removal(),
+           "removes weak points that are too thin a sliver or speck for the grid; {} takes the defaults")});
   return table;
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "sim/scene/mesh_library.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_check.h"
 #include "sim/scene/tables.h"
@@ -87,8 +88,10 @@ int dimension_of(const Value& document) {
   return number != nullptr && *number == 2 ? 2 : 3;
 }
 
-Scene read(const Value& document, std::vector<Problem>& problems) {
+Scene read(const Value& document, const MeshSource& source, std::vector<Problem>& problems) {
+  MeshLibrary meshes(source);
   Reading reading;
+  reading.meshes = &meshes;
   reading.dimension = dimension_of(document);
   const Place root(reading);
   Scene scene;
@@ -101,6 +104,7 @@ Scene read(const Value& document, std::vector<Problem>& problems) {
   check_names(document, scene, root);
   if (reading.problems.empty()) check_whole(document, scene, root);
   problems = std::move(reading.problems);
+  scene.meshes = meshes.files();
   return scene;
 }
 
@@ -110,7 +114,12 @@ int Scene::last_frame() const {
   return static_cast<int>(std::floor(duration * frame_rate + 1e-9));
 }
 
-Scene parse_scene(std::string_view json, std::string_view size, const std::vector<Override>& overrides) {
+bool Scene::wants_skin() const {
+  return look.style == "skin" || !output.skin.empty();
+}
+
+Scene parse_scene(std::string_view json, std::string_view size, const std::vector<Override>& overrides,
+                  const MeshSource& meshes) {
   Value document = parse_json(json);
   if (document.object() == nullptr) {
     throw InputError(
@@ -123,7 +132,7 @@ Scene parse_scene(std::string_view json, std::string_view size, const std::vecto
   }
   apply(overrides, document);
   std::vector<Problem> problems;
-  Scene scene = read(document, problems);
+  Scene scene = read(document, meshes, problems);
   if (!problems.empty()) {
     point_into_size(problems, patch, size, overrides);
     throw InputError(std::move(problems));

@@ -2,14 +2,19 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sim/error.h"
 #include "sim/material/herschel_bulkley_parameters.h"
+#include "sim/material/tearing_parameters.h"
 #include "sim/math/vec.h"
 #include "sim/scene/look.h"
+#include "sim/scene/probe.h"
 #include "sim/shape/motion.h"
 #include "sim/shape/shape.h"
 
@@ -22,6 +27,7 @@ enum class Boundary { kSlip, kStick, kOpen };  ///< kOpen: points that leave are
 enum class Kernel { kQuadratic, kCubic };
 enum class Transfer { kFlip, kApic };
 enum class Precision { kFloat, kDouble };
+enum class Integration { kExplicit, kSemiImplicit };
 
 struct Domain {
   Box3 box;
@@ -34,6 +40,7 @@ struct Material {
   std::string model = "herschel-bulkley";
   std::string preset;  ///< the card it was made from, "" if none
   HerschelBulkleyParameters herschel_bulkley;
+  TearingParameters tearing;
 };
 
 struct Body {
@@ -46,6 +53,20 @@ struct Body {
       Mat3::Zero();  ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
 };
 
+/// A source of material: it releases copies of its shape, or lets material stream through it.
+struct Emitter {
+  std::string name;
+  std::string material;
+  ShapePtr shape;
+  Vec3 velocity = Vec3::Zero();  ///< m/s, of what is released
+  Vec3 spin_deg = Vec3::Zero();  ///< angular velocity about each copy's centre of mass, degrees/s
+  double start = 0;              ///< s, of the first release
+  double interval = 0;           ///< s, between releases; 0 with a single one
+  int count = 1;                 ///< releases
+  bool stream = false;           ///< material comes in through the shape at `velocity`, from start to end
+  double end = 1e30;             ///< s, of a stream
+};
+
 struct Obstacle {
   std::string name;
   ShapePtr shape;
@@ -54,6 +75,25 @@ struct Obstacle {
   Motion motion = AtRest{};
   bool visible = true;
 };
+
+/// How a new point gets its velocity: from the points that give it mass, which conserves momentum, or
+/// interpolated on the grid, which does not.
+enum class NewVelocity { kConserving, kInterpolated };
+
+/// "Avoid a void": points inserted where deformation thins them out, and merged where it crowds them.
+struct Resampling {
+  double interval = 5e-4;  ///< s, simulated, between two resamplings: 50 of the paper's steps
+  NewVelocity velocity = NewVelocity::kConserving;
+};
+
+/// Removal of weak points whose surroundings the grid cannot resolve ("Continuum Foam", section 7.4).
+struct SubgridRemoval {
+  double interval = 5e-4;    ///< s, simulated, between two searches
+  double anisotropy = 1e-5;  ///< least eigenvalue of the surroundings' covariance over the largest one
+  double extent = 1e-5;      ///< largest eigenvalue over the squared cell width
+};
+
+struct MeshFile;
 
 struct Numerics {
   Kernel kernel = Kernel::kCubic;
@@ -64,6 +104,14 @@ struct Numerics {
   double time_step = 0;                     ///< s; 0: from the step bound
   double safety_factor = 0.4;               ///< of the step bound, dimensionless
   double max_time_step = 1e30;              ///< s, of the automatic step
+  Integration integration = Integration::kExplicit;
+  // Of the semi-implicit step only:
+  double implicit_step_factor = 10;      ///< automatic step over the explicit one's, dimensionless
+  double implicit_share = 1;             ///< beta: weight of the change of force over the step, dimensionless
+  double solver_tolerance = 1e-2;        ///< residual over the first one, in the norm of the kinetic energy
+  int solver_iterations = 200;           ///< most of one step
+  std::optional<Resampling> resampling;  ///< none: off
+  std::optional<SubgridRemoval> subgrid_removal;  ///< none: off
 };
 
 struct Scene {
@@ -78,12 +126,18 @@ struct Scene {
   int points_per_cell = 0;       ///< n^dimension; default 8 in 3D, 4 in 2D
   std::vector<Material> materials;
   std::vector<Body> bodies;
+  std::vector<Emitter> emitters;
   std::vector<Obstacle> obstacles;
+  std::vector<Probe> probes;
   std::uint64_t seed = 0;
   double jitter = 0;  ///< of the initial points, fraction of their distance, 0 … 1
   Numerics numerics;
   Look look;
   Output output;
+  std::vector<std::shared_ptr<const MeshFile>> meshes;  ///< that the shapes name, as they were read
+
+  /// Does anything in it ask for the surface of the points?
+  [[nodiscard]] bool wants_skin() const;
 
   /// Frames 0 … last; frame 0 is t = 0.
   [[nodiscard]] int last_frame() const;
@@ -95,13 +149,18 @@ struct Override {
   std::string json;  ///< the value as JSON text; text that is no JSON is taken as a string
 };
 
+/// Gives the bytes of a mesh by the name that a scene has for it, or throws MeshError with the reason why
+/// not.
+using MeshSource = std::function<std::string(const std::string& file)>;
+
 /// Reads a scene. `size` names one of its "sizes" ("" for none). Sizes are merged first, then overrides.
-/// Throws InputError with all problems found, each with its pointer.
+/// Without `meshes` a scene that names a mesh is refused. Throws InputError with all problems found, each
+/// with its pointer.
 [[nodiscard]] Scene parse_scene(std::string_view json, std::string_view size = {},
-                                const std::vector<Override>& overrides = {});
+                                const std::vector<Override>& overrides = {}, const MeshSource& meshes = {});
 
 /// The scene with every field written out, canonical: parse_scene(to_json(s)) gives s, and equal scenes give
-/// equal text.
+/// equal text. A mesh stands in it by name and SHA-256.
 [[nodiscard]] std::string to_json(const Scene& scene);
 
 /// SHA-256 of to_json(scene), 64 hex digits.

@@ -29,20 +29,64 @@ void check_unique(const std::vector<T>& list, const Place& place) {
   }
 }
 
-void check_materials_known(const Scene& scene, const Place& root) {
+/// Every body or emitter is of a material that the scene has.
+template <class T>
+void check_materials_known(const Scene& scene, const std::vector<T>& users, const Place& list) {
   std::vector<std::string> names;
   for (const Material& m : scene.materials) names.push_back(m.name);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const std::string& wanted = scene.bodies[i].material;
-    const bool nameless = std::find(names.begin(), names.end(), "") != names.end();  // noted already
-    if (nameless || wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+  if (std::find(names.begin(), names.end(), "") != names.end()) return;  // noted already
+  for (std::size_t i = 0; i < users.size(); ++i) {
+    const std::string& wanted = users[i].material;
+    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
     const std::string near = descriptor::nearest_name(wanted, names);
-    root.at("bodies")
-        .at(i)
+    list.at(i)
         .at("material")
         .refuse(Value(wanted), descriptor::listed(names),
                 "The scene has no material of that name." +
                     (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+  }
+}
+
+void check_probed_obstacles_known(const Scene& scene, const Place& list) {
+  std::vector<std::string> names;
+  for (const Obstacle& o : scene.obstacles) names.push_back(o.name);
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const auto* force = std::get_if<ForceProbe>(&scene.probes[i].kind);
+    const auto* point = std::get_if<PointProbe>(&scene.probes[i].kind);
+    const std::string wanted = force != nullptr ? force->obstacle : point != nullptr ? point->obstacle : "";
+    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+    const std::string near = descriptor::nearest_name(wanted, names);
+    list.at(i)
+        .at("obstacle")
+        .refuse(Value(wanted), names.empty() ? "none: the scene has no obstacles" : descriptor::listed(names),
+                "The scene has no obstacle of that name." +
+                    (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+  }
+}
+
+/// Samples of all probes that a run may take: they stay in memory, in checkpoints and in the report.
+constexpr double kMaxSamples = 1e6;
+
+void check_samples(const Scene& scene, const Place& root) {
+  double samples = 0;
+  for (const Probe& p : scene.probes)
+    samples += p.interval > 0 ? scene.duration / p.interval : scene.duration * scene.frame_rate;
+  if (samples <= kMaxSamples) return;
+  root.at("probes").refuse(
+      nullptr, "1000000 samples in all",
+      "The probes would take " + text_of(std::round(samples)) + " samples; raise their \"interval\".");
+}
+
+/// The semi-implicit solver holds nodes at obstacles within its solve and does not tell with what force.
+void check_loads(const Scene& scene, const Place& root) {
+  if (scene.numerics.integration != Integration::kSemiImplicit) return;
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const auto& kind = scene.probes[i].kind;
+    if (!std::holds_alternative<ForceProbe>(kind) && !std::holds_alternative<WallProbe>(kind)) continue;
+    root.at("probes").at(i).refuse(
+        nullptr, "a point or plane probe with semi-implicit steps",
+        "Forces on obstacles and walls are measured with explicit steps only; take "
+        "out this probe or set /numerics/integration to \"explicit\".");
   }
 }
 
@@ -126,20 +170,64 @@ void check_plane(const Value& document, const Scene& scene, const Place& root) {
   }
 }
 
+/// A surface needs space around it.
+void check_skin(const Value& document, const Scene& scene, const Place& root) {
+  if (scene.dimension == 3 || !scene.wants_skin()) return;
+  const bool drawn = scene.look.style == "skin";
+  const Value* const part = document.find(drawn ? "look" : "output");
+  const char* const key = drawn ? "style" : "skin";
+  root.at(drawn ? "look" : "output")
+      .at(key)
+      .refuse(part != nullptr ? part->find(key) : nullptr, drawn ? "\"points\" in 2D" : "no format in 2D",
+              "The points of a 2D scene lie in a plane and have no skin.");
+}
+
+/// What comes in through an emitter of a 2D scene stays in its plane.
+void check_emitters_in_plane(const Value& document, const Scene& scene, const Place& root) {
+  for (std::size_t i = 0; i < scene.emitters.size(); ++i) {
+    const Emitter& e = scene.emitters[i];
+    const Value& given = (*document.find("emitters")->array())[i];
+    const Place place = root.at("emitters").at(i);
+    if (e.velocity.z() != 0)
+      place.at("velocity").refuse(given.find("velocity"), "0 across the plane", "A 2D scene has no z.");
+    if (e.spin_deg.x() != 0 || e.spin_deg.y() != 0)
+      place.at("spin_deg")
+          .refuse(given.find("spin_deg"), "0 across the plane", "A 2D body can spin about z only.");
+  }
+}
+
+void check_any_material_there(const Value& document, const Scene& scene, const Place& root) {
+  if (!scene.bodies.empty() || !scene.emitters.empty()) return;
+  const Value* given = document.find("bodies");
+  root.at("bodies").refuse(given, "a list of 1 to 1000 bodies; none only where there are emitters",
+                           given == nullptr ? "\"bodies\" is missing, and there are no emitters either."
+                                            : "The scene has neither bodies nor emitters.");
+}
+
 }  // namespace
 
 void check_names(const Value& document, const Scene& scene, const Place& root) {
   check_unique(scene.materials, root.at("materials"));
   check_unique(scene.bodies, root.at("bodies"));
+  check_unique(scene.emitters, root.at("emitters"));
   check_unique(scene.obstacles, root.at("obstacles"));
-  if (document.find("materials") != nullptr) check_materials_known(scene, root);
+  check_unique(scene.probes, root.at("probes"));
+  check_probed_obstacles_known(scene, root.at("probes"));
+  if (document.find("materials") == nullptr) return;
+  check_materials_known(scene, scene.bodies, root.at("bodies"));
+  check_materials_known(scene, scene.emitters, root.at("emitters"));
 }
 
 void check_whole(const Value& document, Scene& scene, const Place& root) {
   check_points_per_cell(document, scene, root);
   if (check_cells(document, scene, root)) check_periods(scene, root);
   check_frames(document, scene, root);
+  check_samples(scene, root);
+  check_loads(scene, root);
+  check_any_material_there(document, scene, root);
   if (scene.dimension == 2) check_plane(document, scene, root);
+  check_skin(document, scene, root);
+  if (scene.dimension == 2) check_emitters_in_plane(document, scene, root);
   const std::size_t colors = scene.look.material_colors.size();
   if (colors == 0 || colors >= scene.materials.size()) return;
   root.at("look")

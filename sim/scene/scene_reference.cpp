@@ -50,11 +50,13 @@ std::string cards() {
   std::string out =
       "## material cards\n\n| preset | what it is | source | density kg/m^3 | bulk_modulus Pa | "
       "shear_modulus Pa | "
-      "yield_stress Pa | viscosity Pa s^h | flow_index |\n|---|---|---|---|---|---|---|---|---|\n";
+      "yield_stress Pa | viscosity Pa s^h | flow_index | tear_threshold | recovery_time s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const MaterialCard& card : all_material_cards()) {
     out += "| `" + card.name + "` | " + card.words + " | " + card.source;
     Object values;
     tables::herschel_bulkley().write_fields(card.parameters, values);
+    tables::tearing().write_fields(card.tearing, values);
     for (const auto& [name, value] : values) out += " | " + write_json(value);
     out += " |\n";
   }
@@ -69,13 +71,24 @@ std::string scene_reference() {
   out += "Beside these:\n\n" + rows(tables::document_fields());
   out += section(tables::domain().info()) + section(tables::material().info());
   out += section(tables::herschel_bulkley().info(), "### ");
-  out += section(tables::body().info()) + section(tables::obstacle().info());
+  out += section(tables::tearing().info(), "### ");
+  out += section(tables::body().info()) + section(tables::emitter().info());
+  out += section(tables::obstacle().info());
   out += family("shapes",
                 "Every shape has a `type` and takes the keys of its placement beside its own:\n\n" +
                     rows(tables::shapes().common()),
                 tables::shapes());
   out += family("motions", "Every motion has a `type`.", tables::motions());
-  out += section(tables::numerics().info()) + section(tables::look().info());
+  out += family(
+      "probes",
+      "Every probe has a `type` and takes these keys beside its own. Probes do not change the run: its steps "
+      "and its bits are the same with and without them. Samples stand in the report and in "
+      "`probes.csv`.\n\n" +
+          rows(tables::probes().common()),
+      tables::probes());
+  out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ") +
+         section(tables::subgrid_removal().info(), "### ");
+  out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());
   return out + cards();
 }

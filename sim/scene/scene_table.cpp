@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::size_t kMaxMaterials = 255;
 constexpr std::size_t kMaxBodies = 1000;
+constexpr std::size_t kMaxEmitters = 1000;
 constexpr std::size_t kMaxObstacles = 1000;
+constexpr std::size_t kMaxProbes = 100;
 constexpr double kMaxGradient = 1e6;  // 1/s
 
 Codec<Vec3> point() {
@@ -107,17 +109,23 @@ const Table<Scene>& scene() {
                        "8 in 3D, 4 in 2D"),
        required<Scene>("materials", &Scene::materials,
                        list_of(material_codec(), 1, kMaxMaterials, "materials"), "what bodies are made of"),
-       required<Scene>("bodies", &Scene::bodies, list_of(object_of(body()), 1, kMaxBodies, "bodies"),
-                       "material at t = 0"),
+       optional<Scene>("bodies", &Scene::bodies, list_of(object_of(body()), 0, kMaxBodies, "bodies"),
+                       "material at t = 0; needed where there are no emitters"),
+       optional<Scene>("emitters", &Scene::emitters,
+                       list_of(object_of(emitter()), 0, kMaxEmitters, "emitters"),
+                       "material that comes in later"),
        optional<Scene>("obstacles", &Scene::obstacles,
                        list_of(object_of(obstacle()), 0, kMaxObstacles, "obstacles"), "rigid things"),
+       optional<Scene>("probes", &Scene::probes, list_of(probe_codec(), 0, kMaxProbes, "probes"),
+                       "time series of forces, of the state at places, of flux through planes"),
        optional<Scene>("seed", &Scene::seed, counter(), "of all random numbers"),
        optional<Scene>("jitter", &Scene::jitter, number("1", from_to(0, 1)),
                        "random shift of the initial points, over their distance"),
        optional<Scene>("numerics", &Scene::numerics, object_of(numerics()), "how it is computed",
                        "see numerics"),
        optional<Scene>("look", &Scene::look, object_of(look()), "what pictures show", "see look"),
-       optional<Scene>("output", &Scene::output, object_of(output()), "the pictures' size", "see output")});
+       optional<Scene>("output", &Scene::output, object_of(output()), "pictures and files of every frame",
+                       "see output")});
   return table;
 }
 

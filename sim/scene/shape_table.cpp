@@ -206,6 +206,7 @@ const Tagged<Kind>& shapes() {
                                          {optional<PlaneShape>("normal", &PlaneShape::normal, direction(),
                                                                "out of the half space, of any length")})),
           alternative<Kind>("revolution", revolution_table()),
+          alternative<Kind>("mesh", mesh_table()),
           alternative<Kind>("union", union_table()),
           alternative<Kind>("intersection",
                             combination_table<IntersectionShape>("intersection", "What all shapes share.")),

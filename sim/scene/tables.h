@@ -18,18 +18,25 @@ inline constexpr double kForever = 1e30;
 [[nodiscard]] const descriptor::Table<Domain>& domain();
 [[nodiscard]] const descriptor::Table<Material>& material();
 [[nodiscard]] const descriptor::Table<HerschelBulkleyParameters>& herschel_bulkley();
+[[nodiscard]] const descriptor::Table<TearingParameters>& tearing();
 [[nodiscard]] const descriptor::Table<Body>& body();
+[[nodiscard]] const descriptor::Table<Emitter>& emitter();
 [[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();
+[[nodiscard]] const descriptor::Table<Resampling>& resampling();
+[[nodiscard]] const descriptor::Table<SubgridRemoval>& subgrid_removal();
 [[nodiscard]] const descriptor::Table<Look>& look();
 [[nodiscard]] const descriptor::Table<Look::Camera>& camera();
 [[nodiscard]] const descriptor::Table<Output>& output();
+[[nodiscard]] descriptor::Table<MeshShape> mesh_table();
 [[nodiscard]] const descriptor::Tagged<decltype(Shape::kind)>& shapes();
 [[nodiscard]] const descriptor::Tagged<Motion>& motions();
+[[nodiscard]] const descriptor::Tagged<decltype(Probe::kind)>& probes();
 
 [[nodiscard]] descriptor::Codec<Material> material_codec();
 [[nodiscard]] descriptor::Codec<ShapePtr> shape_codec();
 [[nodiscard]] descriptor::Codec<Motion> motion_codec();
+[[nodiscard]] descriptor::Codec<Probe> probe_codec();
 
 /// Schemas that others refer to as "#/$defs/…".
 [[nodiscard]] Object material_schema();

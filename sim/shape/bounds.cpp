@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/shape/mesh_solid.h"
 #include "sim/shape/shape.h"
 #include "sim/shape/unbounded.h"
 
@@ -65,6 +66,7 @@ struct Bounds {
     out.max += Vec3(r, 0, r);
     return out;
   }
+  Box3 operator()(const MeshShape& s) const { return s.solid->bounds(); }
   // Every smooth joint can push the surface out by a quarter of the smoothing.
   Box3 operator()(const UnionShape& s) const {
     Box3 out = bounds(*s.of.front(), world);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/shape/mesh_solid.h"
 #include "sim/shape/placement.h"
 #include "sim/shape/primitives.h"
 
@@ -24,6 +25,7 @@ struct Distance {
   double operator()(const Primitive& s) const {
     return primitive::distance(s, x);
   }
+  double operator()(const MeshShape& s) const { return s.solid->distance(x); }
   double operator()(const UnionShape& s) const {
     double d = distance(*s.of.front(), x);
     for (std::size_t i = 1; i < s.of.size(); ++i) {

@@ -11,9 +11,11 @@
 /// Shapes as signed distances: negative inside, positive outside, metres.
 ///
 /// distance() is exact for the primitives; for combinations and non-uniform ellipsoids it is a bound that
-/// never exceeds the true distance in magnitude (1-Lipschitz), so that "further than d" can be trusted.
+/// never exceeds the true distance in magnitude (1-Lipschitz), so that "further than d" can be trusted. A
+/// mesh's is read from a grid: see mesh_solid.h.
 namespace lather {
 
+class MeshSolid;
 struct Shape;
 using ShapePtr = std::shared_ptr<const Shape>;
 
@@ -52,6 +54,12 @@ struct PlaneShape {  ///< half space below the plane through the origin
 struct RevolutionShape {  ///< closed polygon (r, y) turned about the y axis; r >= 0, at least 3 points
   std::vector<Eigen::Vector2d> profile;
 };
+struct MeshShape {       ///< a closed surface of triangles from a file, in the file's own frame, metres
+  std::string file;      ///< as the scene names it
+  int resolution = 128;  ///< cells of its distance along the longest side
+  std::string sha256;    ///< of the file's bytes, 64 hex digits
+  std::shared_ptr<const MeshSolid> solid;
+};
 struct UnionShape {
   std::vector<ShapePtr> of;
   double smoothing = 0;  ///< width of the blend, m; 0 is the plain union
@@ -76,7 +84,8 @@ struct PlacedShape {  ///< x_world = translate + rotation * (scale * x_local)
 
 struct Shape {
   std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape, EllipsoidShape,
-               PlaneShape, RevolutionShape, UnionShape, IntersectionShape, DifferenceShape, PlacedShape>
+               PlaneShape, RevolutionShape, MeshShape, UnionShape, IntersectionShape, DifferenceShape,
+               PlacedShape>
       kind;
 };
 

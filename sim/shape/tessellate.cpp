@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sim/shape/mesh_builder.h"
+#include "sim/shape/mesh_solid.h"
 #include "sim/shape/shape.h"
 #include "sim/shape/unbounded.h"
 
@@ -126,6 +127,7 @@ struct Tessellate {
     }
     return lathe(strips, detail);
   }
+  TriangleMesh operator()(const MeshShape& s) const { return s.solid->surface(); }
   TriangleMesh operator()(const PlacedShape& s) const {
     if (const auto* plane = std::get_if<PlaneShape>(&s.shape->kind)) {
       return tessellation::plane_polygon(s.translate, s.rotation * plane->normal, world);

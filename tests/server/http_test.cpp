@@ -26,6 +26,9 @@ struct RefusedHead {
   std::string head;
   int status;
 };
+void PrintTo(const RefusedHead& refused, std::ostream* out) {
+  *out << refused.claim;
+}
 
 class RequestHeadRefusal : public ::testing::TestWithParam<RefusedHead> {};
 

@@ -87,6 +87,27 @@ TEST_F(JobLife, APostedSceneBecomesPicturesThatCanBeDownloaded) {
   EXPECT_EQ(request(port(), "GET", path(id, "/log")).status, 200);
 }
 
+TEST_F(JobLife, ProbesAreServedAsCsvAndAreMissingWithoutProbes) {
+  start();
+  Json scene = small_scene();
+  scene["probes"] = Json::parse(R"([{"type": "walls", "name": "box"}])");
+  const std::string id = post_job(scene);
+  ASSERT_TRUE(reaches(id, "succeeded")) << job(id);
+  EXPECT_EQ(job(id).at("links").at("probes"), path(id, "/probes.csv"));
+  const RawResponse csv = request(port(), "GET", path(id, "/probes.csv"));
+  EXPECT_EQ(csv.status, 200);
+  EXPECT_EQ(csv.headers.at("content-type"), "text/csv; charset=utf-8");
+  EXPECT_EQ(csv.body.rfind("probe,quantity,unit,time,value\nbox,force_x,N,", 0), 0U) << csv.body;
+  // A line of names, then six quantities at each frame but the first.
+  EXPECT_EQ(std::count(csv.body.begin(), csv.body.end(), '\n'), 1 + 6 * (kFrames - 1));
+  const Json report = Json::parse(request(port(), "GET", path(id, "/report")).body);
+  EXPECT_EQ(report.at("probes").at(0).at("samples").size(), static_cast<std::size_t>(kFrames - 1));
+
+  const std::string plain = post_job(small_scene());
+  ASSERT_TRUE(reaches(plain, "succeeded")) << job(plain);
+  EXPECT_EQ(request(port(), "GET", path(plain, "/probes.csv")).status, 404);
+}
+
 TEST_F(JobLife, AFrameHasAnETagAndServesOneRange) {
   start();
   const std::string id = post_job(small_scene());

@@ -31,8 +31,11 @@ class PostgresPlace final : public StorePlace {
   const std::string uri_ = cluster().new_database();
 };
 
-INSTANTIATE_TEST_SUITE_P(Postgres, StoreTest,
-                         ::testing::Values([] { return std::make_unique<PostgresPlace>(); }));
+std::unique_ptr<StorePlace> new_postgres_place() {
+  return std::make_unique<PostgresPlace>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Databases, StoreTest, ::testing::Values(StoreKind{"Postgres", new_postgres_place}));
 
 /// A database with agents that lose their jobs quickly and others that do not.
 class PostgresLease : public ::testing::Test {

@@ -42,8 +42,11 @@ class SqlitePlace final : public StorePlace {
   TemporaryDirectory directory_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Sqlite, StoreTest,
-                         ::testing::Values([] { return std::make_unique<SqlitePlace>(); }));
+std::unique_ptr<StorePlace> new_sqlite_place() {
+  return std::make_unique<SqlitePlace>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Databases, StoreTest, ::testing::Values(StoreKind{"Sqlite", new_sqlite_place}));
 
 TEST_P(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
   const std::string id = add("foam", 3);

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 
 #include "server/store/store.h"
@@ -19,10 +19,18 @@ class StorePlace {
   virtual std::unique_ptr<Store> open() = 0;  ///< the same database each time
 };
 
-/// What every store promises; each database runs it through a maker of fresh, empty places.
-class StoreTest : public ::testing::TestWithParam<std::function<std::unique_ptr<StorePlace>()>> {
+struct StoreKind {
+  const char* name;
+  std::unique_ptr<StorePlace> (*new_place)();  ///< fresh and empty
+};
+inline void PrintTo(const StoreKind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+
+/// What every store promises, whatever its database.
+class StoreTest : public ::testing::TestWithParam<StoreKind> {
  protected:
-  StoreTest() : place_(GetParam()()), store_(place_->open()) {}
+  StoreTest() : place_(GetParam().new_place()), store_(place_->open()) {}
 
   std::string add(const std::string& name, int priority = 0, const std::string& key = {});
   void reopen() {

@@ -2,10 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "sim/plan/plan.h"
+
+namespace lather {
+
+/// For GoogleTest, which would print the level's bytes.
+inline void PrintTo(KernelLevel level, std::ostream* out) {
+  *out << to_string(level);
+}
+
+}  // namespace lather
 
 namespace lather::testing_support {
 

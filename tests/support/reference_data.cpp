@@ -36,6 +36,28 @@ std::vector<SimpleShearRun> simple_shear_runs() {
   return runs;
 }
 
+std::vector<TearingCase> tearing_cases() {
+  std::vector<TearingCase> cases;
+  const nlohmann::json data = load("tearing.json");
+  for (const auto& c : data.at("cases")) {
+    const auto matrix = [&](const char* key) {
+      Mat9 m{};
+      for (std::size_t i = 0; i < m.size(); ++i) m[i] = c.at(key).at(i / 3).at(i % 3);
+      return m;
+    };
+    cases.push_back({matrix("F"), matrix("be_bar"), c.at("kappa"), c.at("mu"), c.at("dt"),
+                     c.at("recovery_time"), matrix("velocity_gradient"), c.at("plasticity"), matrix("cauchy"),
+                     matrix("cauchy_limited"), matrix("f_limited"), matrix("F_limited"),
+                     matrix("be_bar_pre_limited"), matrix("F_recovered")});
+  }
+  return cases;
+}
+
+HerschelBulkleyParameters SimpleShearRun::law() const {
+  // Density and bulk modulus do not enter; those of shaving cream.
+  return {77.7, 109e3, mu, sigma_y, eta, h};
+}
+
 double SimpleShearRun::largest_s() const {
   return *std::max_element(s.begin(), s.end());
 }

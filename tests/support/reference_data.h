@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <ostream>
 #include <string>
 #include <vector>
+
+#include "sim/material/herschel_bulkley_parameters.h"
 
 /// Reference solutions in tests/data, integrated or solved to 25 digits by an independent program.
 namespace lather::testing_support {
@@ -18,9 +22,27 @@ struct SimpleShearRun {
   double mu, sigma_y, eta, h, shear_rate;
   std::vector<double> t, tau_xy, n1, s;
 
+  [[nodiscard]] HerschelBulkleyParameters law() const;
   [[nodiscard]] double largest_s() const;
   [[nodiscard]] std::string name() const;
 };
 std::vector<SimpleShearRun> simple_shear_runs();
+inline void PrintTo(const SimpleShearRun& run, std::ostream* out) {
+  *out << run.name();
+}
+
+using Mat9 = std::array<double, 9>;  ///< row by row
+
+/// One weak point over one step: Algorithms 7, 8, 11 (limited) and 14 of "Continuum Foam". SI units.
+struct TearingCase {
+  Mat9 F, be;  ///< before the step; det be = 1
+  double kappa, mu, dt, recovery_time;
+  Mat9 velocity_gradient;
+  double plasticity;
+  Mat9 cauchy, cauchy_limited;                ///< Pa
+  Mat9 f_limited, F_limited, be_pre_limited;  ///< after the limited step
+  Mat9 F_recovered;                           ///< of F, by dt of recovery
+};
+std::vector<TearingCase> tearing_cases();
 
 }  // namespace lather::testing_support

@@ -5,7 +5,7 @@ namespace lather::testing_support {
 std::string ball_scene() {
   return R"({"lather": 1, "name": "ball", "domain": {"min": [-4, -4, -4], "max": [4, 4, 4], "boundary": "open"},
     "gravity": [0, 0, 0], "duration": 0.1, "frame_rate": 10, "spacing": 0.025,
-    "materials": [{"name": "foam", "preset": "shaving-cream"}],
+    "materials": [{"name": "foam", "preset": "shaving-cream", "tear_threshold": "infinity"}],
     "bodies": [{"name": "ball", "material": "foam", "shape": {"type": "sphere", "radius": 0.1, "translate": [0.71, 0.33, 0]}}],
     "numerics": {"time_step": 2.5e-4}})";
 }

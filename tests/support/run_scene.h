@@ -7,8 +7,8 @@
 
 namespace lather::testing_support {
 
-/// A ball of shaving cream (radius 0.1 m, cells of 25 mm) in free space, as JSON; tests change it by
-/// overrides.
+/// A ball of shaving cream that does not tear (radius 0.1 m, cells of 25 mm) in free space, as JSON; tests
+/// change it by overrides.
 std::string ball_scene();
 
 /// Runs all frames of a scene and returns the report.

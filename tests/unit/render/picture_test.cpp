@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "render/render.h"
 #include "sim/error.h"
+#include "sim/surface/skin.h"
 #include "tests/unit/render/sample_frames.h"
 
 namespace lather::render {
@@ -127,6 +128,53 @@ TEST(Silhouette, OfABallOfPointsHasTheProjectedArea) {
   const View view = perspective_view(look.camera, 640.0 / 480, frame.domain);
   const double expected = projected_area(view, center, radius + frame.point_radius, 480);
   EXPECT_NEAR(changed(with, without).area, expected, 0.02 * expected);
+}
+
+/// The frame's points as their skin.
+Frame skinned(Frame frame) {
+  frame.skins = skins_of(frame, 1);
+  return frame;
+}
+
+TEST(Silhouette, OfASkinHasTheProjectedAreaOfItsMaterial) {
+  Frame frame = empty_frame();
+  frame.point_radius = 0.01;
+  const Vec3 center(0, 0.3, 0);
+  for (int i = -10; i < 10; ++i)
+    for (int j = -10; j < 10; ++j)
+      for (int k = -10; k < 10; ++k)
+        if (const Vec3 x = 0.02 * Vec3(i + 0.5, j + 0.5, k + 0.5); x.norm() < 0.2)
+          add_point(frame, center + x);
+  frame = skinned(frame);
+  Look look = bare_look({0, 0.3, 2}, {0, 0.3, 0});
+  look.style = "skin";
+  look.point_scale = 40;  // were the points drawn, they would fill the picture
+  const Image with = draw(frame, look, size(640, 480));
+  const Image without = draw(empty_frame(), look, size(640, 480));
+  const View view = perspective_view(look.camera, 640.0 / 480, frame.domain);
+  // The lattice's rim reaches the sphere here and there, and its skin half a distance further.
+  const double expected = projected_area(view, center, 0.2, 480);
+  EXPECT_NEAR(changed(with, without).area, expected, 0.05 * expected);
+}
+
+TEST(Picture, OfASkinHasTheColourOfItsMaterialAndThrowsAShadow) {
+  const Frame frame = skinned(dollop(2000));
+  Look look;
+  look.style = "skin";
+  look.material_colors = {{0.9, 0.1, 0.1}};
+  const Image red = draw(frame, look, size(160, 120));
+  std::size_t reddish = 0;
+  for (std::size_t i = 0; i + 2 < red.rgb.size(); i += 3)
+    if (red.rgb[i] > 2 * red.rgb[i + 1] + 20) ++reddish;
+  EXPECT_GT(reddish, red.rgb.size() / 3 / 50);
+  look.shadows = false;
+  EXPECT_GT(changed(red, draw(frame, look, size(160, 120))).area, 50);
+}
+
+TEST(Picture, OfASkinThatTheFrameLacksIsRefused) {
+  Look look;
+  look.style = "skin";
+  EXPECT_THROW((void)draw(dollop(500), look, size(64, 64)), std::runtime_error);
 }
 
 TEST(Picture, OsmesaAndEglAgree) {

@@ -20,6 +20,9 @@ struct Variant {
   const char* kernel;
   int dimension;
 };
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.name;
+}
 
 double epsilon(const Variant& v) {
   return std::string(v.precision) == "float" ? std::numeric_limits<float>::epsilon()

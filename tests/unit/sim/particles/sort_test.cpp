@@ -42,7 +42,7 @@ TEST(Sort, KeepsEveryPointWithAllItsFields) {
   ParticleSet<float> set = random_points(5000, 1.2);
   const auto before = contents(set);
   ASSERT_EQ(before.size(), 5000U);
-  EXPECT_EQ(set.sort(ten_cells(), 2), 0U);
+  EXPECT_EQ(set.sort(ten_cells(), 2).points, 0U);
   EXPECT_EQ(set.size(), 5000U);
   EXPECT_EQ(contents(set), before);
 }
@@ -88,7 +88,9 @@ TEST(Sort, WrapsPeriodicAxesAndDropsPointsOutsideAnOpenDomain) {
   set.add({0.5, 1.25, 0.5}, Vec3::Zero(), Mat3::Zero(), 2);   // outside the open axis
   set.add({0.5, 0.5, -0.01}, Vec3::Zero(), Mat3::Zero(), 3);
   const CellBounds bounds = {3, {12, 12, 12}, {true, false, false}, true};
-  EXPECT_EQ(set.sort(bounds, 1), 2U);
+  const Departures gone = set.sort(bounds, 1);
+  EXPECT_EQ(gone.points, 2U);
+  EXPECT_EQ(gone.shares, 2);
   const auto left = contents(set);
   ASSERT_EQ(left.size(), 2U);
   EXPECT_NEAR(left.at(0).first.x(), 0.15, 1e-7);

@@ -38,6 +38,71 @@ TEST(Plan, FieldsFollowTheSceneAndNothingElse) {
   EXPECT_LT(plan_of({{"/dimension", "2"}}).materials.at(0).bytes_per_point, 64);
 }
 
+/// The ball of ball_scene() beside one that tears.
+const std::vector<Override> kTwoMaterials = {
+    {"/materials",
+     R"([{"name": "foam", "preset": "shaving-cream", "tear_threshold": "infinity"},
+         {"name": "tearing", "preset": "shaving-cream", "tear_threshold": 2, "recovery_time": "infinity"}])"},
+    {"/bodies",
+     R"([{"name": "a", "material": "foam", "shape": {"type": "sphere", "radius": 0.1}},
+         {"name": "b", "material": "tearing", "shape": {"type": "sphere", "radius": 0.1, "translate": [1, 0, 0]}}])"}};
+
+TEST(Plan, OnlyAMaterialThatTearsCarriesItsDeformation) {
+  const Plan p = plan_of(kTwoMaterials);
+  const auto names = [&](std::size_t m) {
+    std::vector<std::string> out;
+    for (const PlannedField& f : p.materials.at(m).fields) out.push_back(f.name);
+    return out;
+  };
+  EXPECT_EQ(p.materials.at(0).bytes_per_point, 64);
+  EXPECT_EQ(p.materials.at(1).bytes_per_point, 104);  // F in 36 bytes and plasticity in 4 more
+  std::vector<std::string> with = names(0);
+  with.insert(with.end(), {"deformation F - I", "plasticity |dev Cp|"});
+  EXPECT_EQ(names(1), with);
+}
+
+TEST(Plan, StagesOfTearingRunOnlyWhereSomethingTearsAndRecoveryOnlyWhereItRecovers) {
+  const Plan minimal = plan_of({});
+  const Plan brittle = plan_of(kTwoMaterials);
+  const Plan sticky = plan_of({{"/materials/0/tear_threshold", "2"}});  // recovery_time of the card
+  for (const char* stage : {"detect tearing", "limit forces", "limit deformation"}) {
+    EXPECT_FALSE(has_stage(minimal, stage)) << stage;
+    EXPECT_TRUE(has_stage(brittle, stage)) << stage;
+    EXPECT_TRUE(has_stage(sticky, stage)) << stage;
+  }
+  EXPECT_FALSE(has_stage(brittle, "plastic recovery"));
+  EXPECT_TRUE(has_stage(sticky, "plastic recovery"));
+  EXPECT_EQ(sticky.stages,
+            (std::vector<std::string>{"sort", "detect tearing", "rasterize", "limit forces", "reduce",
+                                      "grid velocities", "collect", "update particles", "limit deformation",
+                                      "plastic recovery", "positions"}));
+}
+
+TEST(Plan, SubgridRemovalIsAStageOnlyWhereItIsAskedForAndSomethingTears) {
+  const Override asked = {"/numerics/subgrid_removal", "{}"};
+  const Override tears = {"/materials/0/tear_threshold", "2"};
+  const char* stage = "remove subgrid geometry";
+  EXPECT_TRUE(has_stage(plan_of({asked, tears}), stage));
+  EXPECT_FALSE(has_stage(plan_of({tears}), stage));
+  EXPECT_FALSE(has_stage(plan_of({asked}), stage));
+  EXPECT_EQ(plan_of({asked}).warnings.size(), plan_of({}).warnings.size() + 1);
+}
+
+TEST(Plan, WarnsWhenPointsAreColouredByWhatNoMaterialHas) {
+  const auto warnings = [](const char* threshold) {
+    return plan_of({{"/look/color_by", "weak"}, {"/materials/0/tear_threshold", threshold}}).warnings.size();
+  };
+  EXPECT_EQ(warnings("infinity"), warnings("2") + 1);
+}
+
+TEST(Plan, ScalarsOfFilesComeWithTheirFields) {
+  const Plan p =
+      plan_of({{"/look/color_by", "speed"}, {"/output/scalars", "[\"plastic_strain\", \"speed\"]"}});
+  EXPECT_EQ(p.scalars, (std::vector<std::string>{"speed", "plastic_strain"}));
+  EXPECT_TRUE(has_field(p, "plastic strain"));
+  EXPECT_TRUE(plan_of({}).scalars.empty());
+}
+
 TEST(Plan, ASceneWithoutContactHasNoCollisionStages) {
   const Plan free_space = plan_of({});
   EXPECT_FALSE(has_stage(free_space, "grid collisions"));

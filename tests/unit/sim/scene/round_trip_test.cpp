@@ -26,6 +26,11 @@ std::string full_scene() {
         {"type": "intersection", "of": [{"type": "plane", "normal": [0, 1, 1]}, {"type": "box", "size": [1, 1, 1]}]},
         {"type": "difference", "of": [{"type": "revolution", "profile": [[0, 0], [0.1, 0], [0, 0.3]]},
                                       {"type": "sphere", "radius": 0.05}]}]}}],
+    "emitters": [
+      {"name": "drops", "material": "a", "shape": {"type": "sphere", "radius": 0.1}, "velocity": [0, -1, 0],
+       "spin_deg": [1, 2, 3], "start": 0.1, "interval": 0.2, "count": 5},
+      {"name": "stream", "material": "b", "shape": {"type": "sphere", "radius": 0.1}, "velocity": [0, -1, 0],
+       "stream": true, "end": 0.7}],
     "obstacles": [
       {"name": "a", "shape": {"type": "plane"}, "adhesive": true, "visible": false,
        "motion": {"type": "linear", "velocity": [1, 0, 0], "start": 0.1, "end": 0.2}},
@@ -35,14 +40,20 @@ std::string full_scene() {
        "motion": {"type": "rotation", "center": [1, 2, 3], "axis": [0, 0, 1], "rate_deg": 90, "end": 3}},
       {"name": "d", "shape": {"type": "plane"}, "motion": {"type": "keyframes", "keys": [
         {"time": 0}, {"time": 0.5, "translate": [0, 0.1, 0], "rotate_deg": [0, 45, 0]}]}}],
+    "probes": [{"type": "force", "name": "f", "obstacle": "b", "about": [1, 2, 3], "interval": 0.5},
+               {"type": "walls", "name": "w", "about": [3, 2, 1]},
+               {"type": "point", "name": "p", "at": [1, 1, 1], "obstacle": "a"},
+               {"type": "plane", "name": "disc", "point": [1, 1, 1], "normal": [1, 1, 0], "radius": 0.1},
+               {"type": "plane", "name": "slot", "point": [1, 1, 1], "along": [1, 0, 0], "size": [0.1, 0.2]}],
     "seed": 9007199254740991, "jitter": 0.1,
     "numerics": {"kernel": "quadratic", "transfer": "apic", "precision": "double", "flip_blend": 0.9,
                  "flip_blend_reference_step": 2e-5, "time_step": 1e-4, "safety_factor": 0.3, "max_time_step": 0.01},
     "look": {"camera": {"eye": [1, 2, 3], "target": [0, 0.5, 0], "field_of_view_deg": 40}, "color_by": "J",
              "color_range": [0.9, 1.1], "color_map": "inferno",
              "material_colors": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "background": [0.1, 0.2, 0.3], "floor": false,
-             "legend": false, "shadows": false, "point_scale": 1.2},
-    "output": {"width": 640, "height": 360, "supersampling": 3}})";
+             "legend": false, "shadows": false, "point_scale": 1.2, "style": "points"},
+    "output": {"width": 640, "height": 360, "supersampling": 3, "particles": ["vdb", "ply"],
+               "skin": ["obj"], "scalars": ["speed"]}})";
 }
 
 /// Every key and value of `given` stands in `written`, or `written` holds more.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "sim/scene/value.h"
 #include "tests/unit/sim/scene/scene_texts.h"
 
@@ -31,6 +33,34 @@ TEST_P(SceneError, HasItsPointerTheValueAndWhatIsAllowed) {
   EXPECT_FALSE(p.message.empty());
   if (w.json != "null" && w.set == w.pointer) {
     EXPECT_EQ(p.value, write_json(parse_json(w.json)).substr(0, p.value.size()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Outputs, SceneError,
+    testing::Values(Wrong{"/look/style", "\"fur\"", "/look/style", "\"points\" or \"skin\""},
+                    Wrong{"/look", R"({"style": "skin", "color_by": "J"})", "/look/color_by",
+                          "coloured by its material"},
+                    Wrong{"/output/particles", R"(["obj"])", "/output/particles/0", "\"ply\" or \"vdb\""},
+                    Wrong{"/output/skin", R"(["ply", "ply"])", "/output/skin/1", "named twice"},
+                    Wrong{"/bodies/0/shape", R"({"type": "mesh"})", "/bodies/0/shape/file", "missing"},
+                    Wrong{"/bodies/0/shape", R"({"type": "mesh", "file": "a.obj", "resolution": 8})",
+                          "/bodies/0/shape/resolution", "from 16 to 256"}));
+
+TEST(SceneErrors, ASkinInTwoDimensionsIsRefusedWhereItIsAskedFor) {
+  const auto flat = [](const std::string& pointer, const std::string& json) {
+    Value scene =
+        parse_json(R"({"lather": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [1, 1]}, "duration": 1,
+      "spacing": 0.05, "materials": [{"name": "foam", "preset": "shaving-cream"}],
+      "bodies": [{"name": "ball", "material": "foam", "shape": {"type": "sphere", "radius": 0.2}}]})");
+    set_at_pointer(scene, pointer, parse_json(json));
+    return problems_of(write_json(scene));
+  };
+  for (const auto& [pointer, json] : {std::pair{"/look/style", "\"skin\""}, {"/output/skin", "[\"obj\"]"}}) {
+    const std::vector<Problem> problems = flat(pointer, json);
+    ASSERT_EQ(problems.size(), 1U) << pointer;
+    EXPECT_EQ(problems[0].pointer, pointer);
+    EXPECT_NE(problems[0].message.find("have no skin"), std::string::npos);
   }
 }
 
@@ -87,14 +117,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneError,
-    testing::Values(
-        Wrong{"/spaceing", "1", "/spaceing", "Did you mean \"spacing\"?"},
-        Wrong{"/numerics/timestep", "1", "/numerics/timestep", "Did you mean \"time_step\"?"},
-        Wrong{"/materials/0/tear_threshold", "1", "/materials/0/tear_threshold", "not known here"},
-        Wrong{"/materials/0/recovery_time", "1", "/materials/0/recovery_time", "not known here"},
-        Wrong{"/bodies/0/shape/raduis", "1", "/bodies/0/shape/raduis", "Did you mean \"radius\"?"},
-        Wrong{"/a~1b", "1", "/a~1b", "not known here"},
-        Wrong{"/look/camera/fov", "30", "/look/camera/fov", "not known here"}));
+    testing::Values(Wrong{"/spaceing", "1", "/spaceing", "Did you mean \"spacing\"?"},
+                    Wrong{"/numerics/timestep", "1", "/numerics/timestep", "Did you mean \"time_step\"?"},
+                    Wrong{"/materials/0/tear_treshold", "1", "/materials/0/tear_treshold",
+                          "Did you mean \"tear_threshold\"?"},
+                    Wrong{"/materials/0/cohesion", "1", "/materials/0/cohesion", "not known here"},
+                    Wrong{"/bodies/0/shape/raduis", "1", "/bodies/0/shape/raduis",
+                          "Did you mean \"radius\"?"},
+                    Wrong{"/a~1b", "1", "/a~1b", "not known here"},
+                    Wrong{"/look/camera/fov", "30", "/look/camera/fov", "not known here"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, SceneError,
@@ -174,6 +205,84 @@ TEST(SceneErrors, AreCollectedNotStoppedAtTheFirst) {
   }
 }
 
+/// A scene whose only material comes from one emitter, `keys` being its own beside name and shape.
+std::string with_emitter(const std::string& keys) {
+  Value scene = parse_json(with("/emitters", R"([{"name": "e", "shape": {"type": "sphere", "radius": 0.1})" +
+                                                 (keys.empty() ? "" : ", " + keys) + "}]"));
+  set_at_pointer(scene, "/bodies", nullptr);
+  return write_json(scene);
+}
+
+TEST(SceneErrors, OfEmittersSayWhatIsAllowed) {
+  EXPECT_TRUE(problems_of(with_emitter(R"("material": "foam")")).empty());
+  EXPECT_TRUE(problems_of(with_emitter(R"("material": "foam", "count": 3, "interval": 0.1)")).empty());
+  EXPECT_TRUE(
+      problems_of(with_emitter(R"("material": "foam", "stream": true, "velocity": [0, -1, 0])")).empty());
+  const std::vector<std::array<const char*, 3>> wrong = {
+      {"", "/emitters/0/material", "missing"},
+      {R"("material": "fome")", "/emitters/0/material", "Did you mean \"foam\"?"},
+      {R"("material": "foam", "count": 0)", "/emitters/0/count", "from 1 to 1000000"},
+      {R"("material": "foam", "count": 2)", "/emitters/0/interval", "above 0 s"},
+      {R"("material": "foam", "end": 2)", "/emitters/0/end", "only where stream is true"},
+      {R"("material": "foam", "start": -1)", "/emitters/0/start", "from 0"},
+      {R"("material": "foam", "stream": true)", "/emitters/0/velocity", "not zero"},
+      {R"("material": "foam", "stream": true, "velocity": [0, -1, 0], "count": 4)", "/emitters/0/count",
+       "only where stream is false"},
+      {R"("material": "foam", "stream": true, "velocity": [0, -1, 0], "spin_deg": [0, 1, 0])",
+       "/emitters/0/spin_deg", "only where stream is false"},
+      {R"("material": "foam", "stream": true, "velocity": [0, -1, 0], "start": 1, "end": 0.5)",
+       "/emitters/0/end", "later than start"}};
+  for (const auto& [keys, pointer, says] : wrong) {
+    const auto problems = problems_of(with_emitter(keys));
+    ASSERT_EQ(problems.size(), 1U) << keys;
+    EXPECT_EQ(problems[0].pointer, pointer);
+    EXPECT_NE((problems[0].allowed + problems[0].message).find(says), std::string::npos)
+        << problems[0].allowed;
+  }
+}
+
+TEST(SceneErrors, OfProbesSayWhatIsAllowed) {
+  const std::vector<std::array<const char*, 3>> wrong = {
+      {R"({"type": "farce", "name": "f"})", "/probes/0/type", "Did you mean \"force\"?"},
+      {R"({"type": "force", "name": "f"})", "/probes/0/obstacle", "missing"},
+      {R"({"type": "force", "name": "f", "obstacle": "grund"})", "/probes/0/obstacle",
+       "Did you mean \"ground\"?"},
+      {R"({"type": "point", "name": "p", "at": [0, 0, 0], "obstacle": "wall"})", "/probes/0/obstacle",
+       "ground"},
+      {R"({"type": "plane", "name": "p", "point": [0, 0, 0], "size": [1, 0]})", "/probes/0/size",
+       "above 0 m"},
+      {R"({"type": "plane", "name": "p", "point": [0, 0, 0], "size": [1, 1]})", "/probes/0/along",
+       "across the normal"},
+      {R"({"type": "plane", "name": "p", "point": [0, 0, 0], "size": [1, 1], "along": [0, 2, 0]})",
+       "/probes/0/along", "across the normal"},
+      {R"({"type": "plane", "name": "p", "point": [0, 0, 0], "size": [1, 1], "along": [1, 0, 0], "radius": 1})",
+       "/probes/0/radius", "only without size"},
+      {R"({"type": "walls", "name": "w", "interval": 1e-9})", "/probes", "1000000 samples"}};
+  for (const auto& [probe, pointer, says] : wrong) {
+    const auto problems = problems_of(with("/probes", std::string("[") + probe + "]"));
+    ASSERT_EQ(problems.size(), 1U) << probe;
+    EXPECT_EQ(problems[0].pointer, pointer);
+    EXPECT_NE((problems[0].allowed + problems[0].message).find(says), std::string::npos)
+        << problems[0].message;
+  }
+}
+
+TEST(SceneErrors, ASceneNeedsBodiesOrEmitters) {
+  const auto problems = problems_of(with("/bodies", "null"));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].pointer, "/bodies");
+  EXPECT_NE(problems[0].message.find("\"bodies\" is missing"), std::string::npos);
+}
+
+TEST(SceneErrors, NamesOfEmittersGivenTwiceAreRefused) {
+  constexpr const char* kTwo =
+      R"([{"name": "e", "material": "foam", "shape": {"type": "sphere", "radius": 0.1}},
+                                   {"name": "e", "material": "foam", "shape": {"type": "sphere", "radius": 0.2}}])";
+  const auto problems = problems_of(with("/emitters", kTwo));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].pointer, "/emitters/1/name");
+}
+
 TEST(SceneErrors, NamesGivenTwiceAreRefused) {
   const auto problems = problems_of(with("/materials", R"([{"name": "foam", "preset": "pie"},
                                                            {"name": "foam", "preset": "oobleck"}])"));
@@ -195,12 +304,16 @@ TEST(SceneErrors, LongValuesAreShownShortened) {
 }
 
 TEST(SceneErrors, MotionOutOfThePlaneOfA2DSceneIsRefused) {
-  const std::string flat = with("/dimension", "2");
+  Value scene = parse_json(with_emitter(R"("material": "foam")"));
+  set_at_pointer(
+      scene, "/bodies",
+      parse_json(R"([{"name": "b", "material": "foam", "shape": {"type": "sphere", "radius": 0.2}}])"));
+  set_at_pointer(scene, "/dimension", std::int64_t{2});
+  const std::string flat = write_json(scene);
   const std::vector<std::pair<const char*, const char*>> across = {
-      {"/gravity", "[0, -9.81, 1]"},
-      {"/bodies/0/velocity", "[0, 0, 1]"},
-      {"/bodies/0/spin_deg", "[1, 0, 0]"},
-      {"/bodies/0/velocity_gradient", "[[0,0,0],[0,0,0],[1,0,0]]"},
+      {"/gravity", "[0, -9.81, 1]"},         {"/bodies/0/velocity", "[0, 0, 1]"},
+      {"/bodies/0/spin_deg", "[1, 0, 0]"},   {"/bodies/0/velocity_gradient", "[[0,0,0],[0,0,0],[1,0,0]]"},
+      {"/emitters/0/velocity", "[0, 0, 1]"}, {"/emitters/0/spin_deg", "[0, 1, 0]"},
   };
   for (const auto& [pointer, json] : across) {
     const auto problems = problems_of(flat, "", {{pointer, json}});

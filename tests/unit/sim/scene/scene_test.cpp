@@ -36,13 +36,13 @@ TEST(Scene, LastFrameIsTheLastOneWithinTheDuration) {
 
 // Table I of "Continuum Foam", kPa turned into Pa.
 TEST(MaterialCards, HoldThePrintedNumbers) {
-  const std::vector<std::pair<std::string, std::array<double, 6>>> table = {
-      {"shaving-cream", {77.7, 109000, 290, 31.9, 27.2, 0.22}},
-      {"smore-interior", {50, 109000, 80, 10, 16, 0.43}},
-      {"smore-exterior", {50, 109000, 50000, 1000, 0.1, 1}},
-      {"pie", {275, 109000, 1600, 120, 5, 0.27}},
-      {"oobleck", {1000, 109000, 11200, 0.1, 10, 2.8}},
-      {"viscoplastic", {1000, 109000, 11200, 0.1, 10, 1}}};
+  const std::vector<std::pair<std::string, std::array<double, 8>>> table = {
+      {"shaving-cream", {77.7, 109000, 290, 31.9, 27.2, 0.22, 217.5, 0.35}},
+      {"smore-interior", {50, 109000, 80, 10, 16, 0.43, 15, 0.25}},
+      {"smore-exterior", {50, 109000, 50000, 1000, 0.1, 1, 0.3, 0.5}},
+      {"pie", {275, 109000, 1600, 120, 5, 0.27, 10, 0.3}},
+      {"oobleck", {1000, 109000, 11200, 0.1, 10, 2.8, 1, 0.3}},
+      {"viscoplastic", {1000, 109000, 11200, 0.1, 10, 1, 1, 0.3}}};
   EXPECT_EQ(all_material_cards().size(), table.size());
   for (const auto& [name, numbers] : table) {
     const Scene s = parse_scene(with("/materials/0/preset", "\"" + name + "\""));
@@ -54,6 +54,8 @@ TEST(MaterialCards, HoldThePrintedNumbers) {
     EXPECT_DOUBLE_EQ(p.yield_stress, numbers[3]) << name;
     EXPECT_DOUBLE_EQ(p.viscosity, numbers[4]) << name;
     EXPECT_DOUBLE_EQ(p.flow_index, numbers[5]) << name;
+    EXPECT_DOUBLE_EQ(s.materials[0].tearing.tear_threshold, numbers[6]) << name;
+    EXPECT_DOUBLE_EQ(s.materials[0].tearing.recovery_time, numbers[7]) << name;
   }
 }
 

@@ -1,0 +1,64 @@
+#include "server/command/run_events.h"
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "server/agent/protocol.h"
+#include "server/command/progress_bar.h"
+
+namespace lather::server {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+class EventsForPeople final : public RunEvents {
+ public:
+  void progress(const RunProgress& progress) override {
+    char text[96];
+    std::snprintf(text, sizeof text, "frame %d of %d, step %llu", progress.frame, progress.frames - 1,
+                  static_cast<unsigned long long>(progress.step));
+    bar_.show(progress.fraction, progress.eta_seconds, text);
+  }
+  void frame(const FrameFile&) override {}
+  void log(const std::string& line) override { bar_.line(line); }
+
+ private:
+  ProgressBar bar_;
+};
+
+/// One JSON object a line on stdout, the same ones that a server's runner sends.
+class EventsAsJson final : public RunEvents {
+ public:
+  void progress(const RunProgress& progress) override { print(progress); }
+  void frame(const FrameFile& frame) override { print(frame); }
+  void log(const std::string& line) override { std::fprintf(stderr, "%s\n", line.c_str()); }
+  static void print(const RunnerEvent& event) {
+    std::fputs(to_line(event).c_str(), stdout);
+    std::fflush(stdout);
+  }
+};
+
+}  // namespace
+
+const std::atomic<bool>& heed_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted.store(true); };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends it at once
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  return interrupted;
+}
+
+Report with_events(bool json, const std::function<Report(RunEvents&)>& work) {
+  if (json) {
+    EventsAsJson events;
+    Report report = work(events);
+    EventsAsJson::print(RunnerResult{report.state, report.error});
+    return report;
+  }
+  EventsForPeople events;
+  return work(events);
+}
+
+}  // namespace lather::server

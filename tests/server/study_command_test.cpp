@@ -1,0 +1,110 @@
+// lather rheometer and lather verify, as people and programs meet them.
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "tests/server/command.h"
+
+namespace lather::server {
+namespace {
+
+class StudyCommand : public Command {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name, const std::string& text = {}) {
+    const std::string path = (directory_.path() / name).string();
+    if (!text.empty()) std::ofstream(path) << text;
+    return path;
+  }
+};
+
+TEST_F(StudyCommand, RheometerGivesStartUpAsJson) {
+  ASSERT_EQ(run("rheometer shaving-cream --rate 1 --time 0.5 --steps 50 --json"), 0) << said();
+  const Json curve = Json::parse(said());
+  for (const char* key : {"t", "tau_xy", "n1", "s"}) EXPECT_EQ(curve.at(key).size(), 51U) << key;
+  EXPECT_EQ(curve.at("t")[50], 0.5);
+  EXPECT_EQ(curve.at("tau_xy")[0], 0);
+  EXPECT_NEAR(curve.at("tau_xy")[1], 2.9, 0.01);  // elastic: 290 Pa times a shear of 0.01
+}
+
+TEST_F(StudyCommand, RheometerReadsAMaterialFromAFile) {
+  const std::string material = file("foam.json", R"({"preset": "shaving-cream", "shear_modulus": 580})");
+  ASSERT_EQ(run("rheometer " + material + " --time 0.01 --steps 1 --json"), 0) << said();
+  EXPECT_NEAR(Json::parse(said()).at("tau_xy")[1], 5.8, 0.01);
+}
+
+TEST_F(StudyCommand, RheometerBoxAgreesWithTheLaw) {
+  const std::string arguments = "rheometer viscoplastic --time 0.05 --steps 2 --json";
+  ASSERT_EQ(run(arguments), 0) << said();
+  const Json law = Json::parse(said());
+  ASSERT_EQ(run(arguments + " --box --threads 1"), 0) << said();
+  const Json box = Json::parse(said());
+  EXPECT_NEAR(box.at("s")[2], law.at("s")[2], 0.02 * law.at("s")[2].get<double>());
+}
+
+TEST_F(StudyCommand, RheometerDrawsAFlowCurve) {
+  const std::string chart = file("curve.svg");
+  ASSERT_EQ(run("rheometer shaving-cream --rates 0.1:10 --chart " + chart), 0) << said();
+  EXPECT_NE(said().find("power law"), std::string::npos) << said();
+  EXPECT_EQ(read(chart).compare(0, 4, "<svg"), 0);
+  ASSERT_EQ(run("rheometer shaving-cream --rates 0.1:10 --viscosity --chart " + chart), 0) << said();
+  EXPECT_NE(read(chart).find("Bargteil"), std::string::npos);
+}
+
+TEST_F(StudyCommand, RheometerSetsAMeasuredFlowCurveBesideTheMaterials) {
+  const std::string chart = file("curve.svg");
+  ASSERT_EQ(run("rheometer shaving-cream --rates 1:100:3 --measured 18:12:0.5 --chart " + chart), 0)
+      << said();
+  EXPECT_NE(said().find("yield stress 31.1769 Pa"), std::string::npos) << said();  // sqrt(3) 18
+  EXPECT_NE(read(chart).find("measured"), std::string::npos);
+  ASSERT_EQ(run("rheometer shaving-cream --rates 1:100:3 --measured 18:12:0.5 --json"), 0) << said();
+  const Json curve = Json::parse(said());
+  EXPECT_NEAR(curve.at("measured")[1], 18 + 12 * std::sqrt(10.0), 1e-9);
+  EXPECT_NEAR(curve.at("measured_parameters").at("viscosity"), 12 * std::pow(2.0, 0.75), 1e-9);
+}
+
+TEST_F(StudyCommand, RheometerSaysWhatIsWrong) {
+  const std::string elastic =
+      file("elastic.json", R"({"density": 1000, "bulk_modulus": 1e5, "shear_modulus": 1e4})");
+  const std::string wrong = file("wrong.json", R"({"preset": "pie", "viscosty": 3})");
+  const std::pair<std::string, std::string> cases[] = {
+      {"shaving-crem", "Did you mean \"shaving-cream\""},
+      {"missing.json", "missing.json"},
+      {directory_.path().string() + "/", "directory"},
+      {wrong, "/viscosty"},
+      {"pie --rate -1", "--rate"},
+      {"pie --rate 100 --time 100", "--time"},
+      {"pie --steps 0", "--steps"},
+      {"pie --rates 10:1", "LOWEST:HIGHEST"},
+      {"pie --rates 1:10 --box", "--box"},
+      {"pie --viscosity", "--rates"},
+      {"pie --measured 18:12:0.4", "--rates"},
+      {"pie --rates 1:10 --measured 18:12", "YIELD:CONSISTENCY:INDEX"},
+      {"pie --steps 1000000000000", "--steps"},
+      {"pie --time 0", "--time"},
+      {"pie --chart curve.bmp", ".svg"},
+      {elastic + " --rates 1:10", "yield"},
+  };
+  for (const auto& [arguments, words] : cases) {
+    EXPECT_EQ(run("rheometer " + arguments), 2) << arguments;
+    EXPECT_NE(said().find(words), std::string::npos) << arguments << ": " << said();
+  }
+}
+
+TEST_F(StudyCommand, VerifyPrintsATableAndJson) {
+  ASSERT_EQ(run("verify law"), 0) << said();
+  EXPECT_NE(said().find("1 of 1 cases passed"), std::string::npos) << said();
+  ASSERT_EQ(run("verify law --json"), 0);
+  const Json result = Json::parse(said());
+  EXPECT_EQ(result.at("passed"), true);
+  EXPECT_EQ(result.at("cases")[0].at("name"), "law");
+  EXPECT_GT(result.at("cases")[0].at("findings").size(), 0U);
+}
+
+TEST_F(StudyCommand, VerifyNamesItsCases) {
+  EXPECT_EQ(run("verify flim"), 2);
+  EXPECT_NE(said().find("Did you mean \"film\""), std::string::npos) << said();
+}
+
+}  // namespace
+}  // namespace lather::server
