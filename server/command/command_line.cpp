@@ -189,6 +189,8 @@ void add_rheometer(CLI::App& program, AllOptions& all) {
   command.add_option("--steps", o.steps, "intervals between readings")->capture_default_str();
   command.add_flag("--box", o.box, "shear a box of points by the whole method, not the law alone");
   command.add_option("--rates", o.rates, "steady flow curve: LOWEST:HIGHEST[:COUNT], 1/s, e.g. 0.01:100");
+  command.add_option("--measured", o.measured,
+                     "with --rates: a flow curve to set beside it, tau_y:K:n of tau_y + K rate^n");
   command.add_flag("--viscosity", o.viscosity,
                    "with --rates: the chart shows effective viscosity over stress");
   command.add_option("--threads", o.threads, "threads of the box; 0: all cores")->check(CLI::Range(0, 1024));

@@ -96,8 +96,9 @@ struct RheometerOptions {
   std::string material;  ///< a preset's name, or a file
   double rate = 1;       ///< 1/s
   double time = 3;       ///< s
-  int steps = 2000;
-  std::string rates;  ///< "lowest:highest[:count]"; "": a start-up
+  std::int64_t steps = 2000;
+  std::string rates;     ///< "lowest:highest[:count]"; "": a start-up
+  std::string measured;  ///< "tau_y:K:n" of a flow curve to show beside the material's; "": none
   bool box = false;
   bool viscosity = false;
   int threads = 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "render/chart.h"
@@ -56,18 +57,32 @@ void print_table(const StartUp& curve) {
   }
 }
 
-void print_table(const HerschelBulkleyParameters& law, const std::vector<SteadyFlow>& curve) {
+void print_measured(const study::PowerLaw& measured) {
+  HerschelBulkleyParameters same;
+  study::set_flow(same, measured);
+  std::printf(
+      "measured: tau_xy = %.6g Pa + %.6g Pa s^n rate^%.6g, which is yield stress %.6g Pa, viscosity "
+      "%.6g Pa s^h, flow index %.6g\n\n",
+      measured.yield_stress, measured.consistency, measured.flow_index, same.yield_stress, same.viscosity,
+      same.flow_index);
+}
+
+void print_table(const HerschelBulkleyParameters& law, const std::vector<SteadyFlow>& curve,
+                 const std::optional<study::PowerLaw>& measured) {
   const study::PowerLaw power = study::power_law(law);
   const study::ViscosityComparison v = study::compare_viscosities(law, curve);
   std::printf("%12s %12s %12s %12s %12s | %s, Pa s\n", "", "", "", "", "power law",
               "effective viscosity at the stress s");
-  std::printf("%12s %12s %12s %12s %12s | %12s %12s %12s\n", "rate (1/s)", "tau_xy (Pa)", "N1 (Pa)", "s (Pa)",
-              "tau_xy (Pa)", "this law", "viscoplastic", "Bargteil");
+  std::printf("%12s %12s %12s %12s %12s | %12s %12s %12s%s\n", "rate (1/s)", "tau_xy (Pa)", "N1 (Pa)",
+              "s (Pa)", "tau_xy (Pa)", "this law", "viscoplastic", "Bargteil",
+              measured ? " | measured, Pa" : "");
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const SteadyFlow& f = curve[i];
-    std::printf("%12.6g %12.6g %12.6g %12.6g %12.6g | %12.6g %12.6g %12.6g%s\n", f.rate, f.stress.tau_xy,
+    std::printf("%12.6g %12.6g %12.6g %12.6g %12.6g | %12.6g %12.6g %12.6g", f.rate, f.stress.tau_xy,
                 f.stress.n1, f.stress.s, study::stress_at(power, f.rate), v.herschel_bulkley[i],
-                v.viscoplastic[i], v.bargteil[i], f.steady ? "" : "  not steady");
+                v.viscoplastic[i], v.bargteil[i]);
+    if (measured) std::printf(" | %12.6g", study::stress_at(*measured, f.rate));
+    std::printf("%s\n", f.steady ? "" : "  not steady");
   }
   std::printf("\nThe other two models are made to flow as fast as this law at %.6g/s.\n", v.matched_rate);
 }
@@ -83,7 +98,8 @@ render::Chart chart_of(const Material& material, const StartUp& curve) {
   return chart;
 }
 
-render::Chart flow_chart(const Material& material, const std::vector<SteadyFlow>& curve) {
+render::Chart flow_chart(const Material& material, const std::vector<SteadyFlow>& curve,
+                         const std::optional<study::PowerLaw>& measured) {
   const study::PowerLaw power = study::power_law(material.herschel_bulkley);
   const std::vector<double> rates = column(curve, [](const SteadyFlow& f) { return f.rate; });
   render::Chart chart;
@@ -95,6 +111,10 @@ render::Chart flow_chart(const Material& material, const std::vector<SteadyFlow>
       {"N1", rates, column(curve, [](const SteadyFlow& f) { return f.stress.n1; })},
       {"tau_xy, stiff limit", rates,
        column(curve, [&](const SteadyFlow& f) { return study::stress_at(power, f.rate); }), true}};
+  if (measured)
+    chart.series.push_back({"tau_xy, measured", rates, column(curve, [&](const SteadyFlow& f) {
+                              return study::stress_at(*measured, f.rate);
+                            })});
   return chart;
 }
 
@@ -124,29 +144,34 @@ void check(const RheometerOptions& o) {
     throw InputError(
         {{"", "--viscosity", "with --rates",
           "The effective viscosity belongs to a flow curve; add --rates, e.g. --rates 0.01:100."}});
+  if (o.rates.empty() && !o.measured.empty())
+    throw InputError({{"", "--measured " + o.measured, "with --rates",
+                       "It is a flow curve; add --rates, e.g. --rates 0.01:100, to see the material's beside "
+                       "it."}});
   if (!o.rates.empty() && o.box)
     throw InputError({{"", "--box --rates " + o.rates, "one of the two",
                        "A flow curve comes from the law alone; for the box give one rate with --rate."}});
 }
 
-}  // namespace
-
-int rheometer_command(const RheometerOptions& options) {
-  check(options);
-  const Material material = read_material(options.material);
+int steady_flow(const RheometerOptions& options, const Material& material) {
   const HerschelBulkleyParameters& law = material.herschel_bulkley;
-  if (!options.rates.empty()) {
-    const std::vector<SteadyFlow> curve = study::flow_curve(law, study::read_rate_range(options.rates));
-    write_chart(options.chart,
-                options.viscosity ? viscosity_chart(material, curve) : flow_chart(material, curve));
-    if (options.json) {
-      std::printf("%s\n", study::to_json(law, curve).c_str());
-    } else {
-      print_parameters(material);
-      print_table(law, curve);
-    }
-    return 0;
+  std::optional<study::PowerLaw> measured;
+  if (!options.measured.empty()) measured = study::read_power_law(options.measured);
+  const std::vector<SteadyFlow> curve = study::flow_curve(law, study::read_rate_range(options.rates));
+  write_chart(options.chart,
+              options.viscosity ? viscosity_chart(material, curve) : flow_chart(material, curve, measured));
+  if (options.json) {
+    std::printf("%s\n", study::to_json(law, curve, measured).c_str());
+  } else {
+    print_parameters(material);
+    if (measured) print_measured(*measured);
+    print_table(law, curve, measured);
   }
+  return 0;
+}
+
+int start_up(const RheometerOptions& options, const Material& material) {
+  const HerschelBulkleyParameters& law = material.herschel_bulkley;
   const study::StartUpRequest request = {options.rate, options.time, options.steps};
   const StartUp curve =
       options.box ? study::start_up_in_box(law, request, options.threads) : study::start_up(law, request);
@@ -158,6 +183,14 @@ int rheometer_command(const RheometerOptions& options) {
     print_table(curve);
   }
   return 0;
+}
+
+}  // namespace
+
+int rheometer_command(const RheometerOptions& options) {
+  check(options);
+  const Material material = read_material(options.material);
+  return options.rates.empty() ? start_up(options, material) : steady_flow(options, material);
 }
 
 }  // namespace lather::server

@@ -12,6 +12,9 @@
 namespace lather::server {
 
 std::string read_text(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(
+        {{"", file.string(), "a readable file", "cannot read " + file.string() + ": it is a directory"}});
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError({{"", file.string(), "a readable file",

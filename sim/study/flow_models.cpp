@@ -1,6 +1,10 @@
 #include "sim/study/flow_models.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim/error.h"
+#include "sim/study/colon_numbers.h"
 
 namespace lather::study {
 
@@ -13,6 +17,18 @@ void set_flow(HerschelBulkleyParameters& law, const PowerLaw& measured) {
   law.yield_stress = std::sqrt(3.0) * measured.yield_stress;
   law.viscosity = std::exp2(0.5 * (1 + measured.flow_index)) * measured.consistency;
   law.flow_index = measured.flow_index;
+}
+
+PowerLaw read_power_law(const std::string& text) {
+  const std::vector<double> numbers = numbers_between_colons(text);
+  const auto usable = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (numbers.size() != 3 || !std::all_of(numbers.begin(), numbers.end(), usable) || numbers[2] == 0)
+    throw InputError(
+        {{"", "--measured " + text,
+          "YIELD:CONSISTENCY:INDEX of tau = YIELD + CONSISTENCY rate^INDEX in Pa and Pa s^INDEX, "
+          "none negative, the index above 0, e.g. 18:12:0.4",
+          "This is no flow curve."}});
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 double stress_at(const PowerLaw& law, double rate) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/study/rheometer.h"
@@ -23,6 +24,9 @@ struct PowerLaw {
 /// The law's parameters for a measured flow curve, the inverse: sigma_Y = sqrt(3) tau_y, eta = 2^((1+n)/2) K.
 /// Density and moduli are left as they stand in `law`.
 void set_flow(HerschelBulkleyParameters& law, const PowerLaw& measured);
+
+/// Reads "18:12:0.4", tau_y:K:n as measured. Throws InputError.
+[[nodiscard]] PowerLaw read_power_law(const std::string& text);
 
 /// tau = tau_y + K rate^n, Pa.
 [[nodiscard]] double stress_at(const PowerLaw& law, double rate);

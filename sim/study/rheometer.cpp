@@ -1,13 +1,13 @@
 #include "sim/study/rheometer.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "sim/error.h"
 #include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/levels.h"
+#include "sim/study/colon_numbers.h"
 
 namespace lather::study {
 namespace {
@@ -63,22 +63,6 @@ SteadyFlow steady_flow(const HerschelBulkleyParameters& law, double rate) {
   return {rate, before, false};
 }
 
-/// Empty where some part is no number.
-std::vector<double> numbers_between_colons(const std::string& text) {
-  std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    double number = 0;
-    const std::from_chars_result read = std::from_chars(at, end, number);
-    if (read.ec != std::errc()) return {};
-    numbers.push_back(number);
-    if (read.ptr == end) return numbers;
-    if (*read.ptr != ':') return {};
-    at = read.ptr + 1;
-  }
-}
-
 [[noreturn]] void refuse_range(const std::string& text, const std::string& why) {
   throw InputError(
       {{"", "--rates " + text,
@@ -111,9 +95,10 @@ StartUp start_up(const HerschelBulkleyParameters& law, const StartUpRequest& req
   out.rate = request.rate;
   out.t.push_back(0);
   out.stress.push_back(point.stress());
-  for (int i = 1; i <= request.steps; ++i) {
-    point.shear(request.rate, request.time / request.steps);
-    out.t.push_back(request.time * i / request.steps);
+  const auto steps = static_cast<int>(request.steps);
+  for (int i = 1; i <= steps; ++i) {
+    point.shear(request.rate, request.time / steps);
+    out.t.push_back(request.time * i / steps);
     out.stress.push_back(point.stress());
   }
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct StartUp {
 
 /// What start_up() is asked for.
 struct StartUpRequest {
-  double rate = 1;   ///< of shear, 1/s
-  double time = 3;   ///< s
-  int steps = 2000;  ///< intervals between readings; readings = steps + 1
+  double rate = 1;            ///< of shear, 1/s
+  double time = 3;            ///< s
+  std::int64_t steps = 2000;  ///< intervals between readings; readings = steps + 1
 };
 
 inline constexpr double kMostShear = 1000;  ///< of a start-up, rate * time, dimensionless

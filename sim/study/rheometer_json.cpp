@@ -33,7 +33,8 @@ std::string to_json(const StartUp& curve) {
   return write_json(out);
 }
 
-std::string to_json(const HerschelBulkleyParameters& law, const std::vector<SteadyFlow>& curve) {
+std::string to_json(const HerschelBulkleyParameters& law, const std::vector<SteadyFlow>& curve,
+                    const std::optional<PowerLaw>& measured) {
   const PowerLaw power = power_law(law);
   const ViscosityComparison viscosity = compare_viscosities(law, curve);
   Object out = {{"rate", numbers_of(curve, [](const SteadyFlow& f) { return f.rate; })}};
@@ -47,6 +48,15 @@ std::string to_json(const HerschelBulkleyParameters& law, const std::vector<Stea
                                                  {"herschel_bulkley", numbers(viscosity.herschel_bulkley)},
                                                  {"viscoplastic", numbers(viscosity.viscoplastic)},
                                                  {"bargteil", numbers(viscosity.bargteil)}});
+  if (measured) {
+    out.emplace_back("measured",
+                     numbers_of(curve, [&](const SteadyFlow& f) { return stress_at(*measured, f.rate); }));
+    HerschelBulkleyParameters same;
+    set_flow(same, *measured);
+    out.emplace_back("measured_parameters", Object{{"yield_stress", same.yield_stress},
+                                                   {"viscosity", same.viscosity},
+                                                   {"flow_index", same.flow_index}});
+  }
   return write_json(out);
 }
 

@@ -69,7 +69,7 @@ Scene shear_box_scene(const HerschelBulkleyParameters& law, const StartUpRequest
   // Oobleck at 0.1/s carries 0.09 Pa beside a bulk modulus of 10^5 Pa; float's noise of J alone is 2 % of
   // that.
   scene.numerics.precision = Precision::kDouble;
-  set_frames(scene, request.time, request.steps);
+  set_frames(scene, request.time, static_cast<int>(request.steps));
   return scene;
 }
 
@@ -83,9 +83,10 @@ StartUp start_up_in_box(const HerschelBulkleyParameters& law, const StartUpReque
   const auto simulation = Simulation::create(make_plan(scene), threads);
   StartUp out;
   out.rate = request.rate;
-  for (int i = 0; i <= request.steps; ++i) {
+  const auto steps = static_cast<int>(request.steps);
+  for (int i = 0; i <= steps; ++i) {
     run_to(*simulation, i);
-    out.t.push_back(request.time * i / request.steps);
+    out.t.push_back(request.time * i / steps);
     out.stress.push_back(middle_stress(*simulation, middle_half(scene)));
   }
   return out;

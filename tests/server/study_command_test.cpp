@@ -1,6 +1,7 @@
 // lather rheometer and lather verify, as people and programs meet them.
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "tests/server/command.h"
@@ -50,6 +51,18 @@ TEST_F(StudyCommand, RheometerDrawsAFlowCurve) {
   EXPECT_NE(read(chart).find("Bargteil"), std::string::npos);
 }
 
+TEST_F(StudyCommand, RheometerSetsAMeasuredFlowCurveBesideTheMaterials) {
+  const std::string chart = file("curve.svg");
+  ASSERT_EQ(run("rheometer shaving-cream --rates 1:100:3 --measured 18:12:0.5 --chart " + chart), 0)
+      << said();
+  EXPECT_NE(said().find("yield stress 31.1769 Pa"), std::string::npos) << said();  // sqrt(3) 18
+  EXPECT_NE(read(chart).find("measured"), std::string::npos);
+  ASSERT_EQ(run("rheometer shaving-cream --rates 1:100:3 --measured 18:12:0.5 --json"), 0) << said();
+  const Json curve = Json::parse(said());
+  EXPECT_NEAR(curve.at("measured")[1], 18 + 12 * std::sqrt(10.0), 1e-9);
+  EXPECT_NEAR(curve.at("measured_parameters").at("viscosity"), 12 * std::pow(2.0, 0.75), 1e-9);
+}
+
 TEST_F(StudyCommand, RheometerSaysWhatIsWrong) {
   const std::string elastic =
       file("elastic.json", R"({"density": 1000, "bulk_modulus": 1e5, "shear_modulus": 1e4})");
@@ -57,6 +70,7 @@ TEST_F(StudyCommand, RheometerSaysWhatIsWrong) {
   const std::pair<std::string, std::string> cases[] = {
       {"shaving-crem", "Did you mean \"shaving-cream\""},
       {"missing.json", "missing.json"},
+      {directory_.path().string() + "/", "directory"},
       {wrong, "/viscosty"},
       {"pie --rate -1", "--rate"},
       {"pie --rate 100 --time 100", "--time"},
@@ -64,6 +78,10 @@ TEST_F(StudyCommand, RheometerSaysWhatIsWrong) {
       {"pie --rates 10:1", "LOWEST:HIGHEST"},
       {"pie --rates 1:10 --box", "--box"},
       {"pie --viscosity", "--rates"},
+      {"pie --measured 18:12:0.4", "--rates"},
+      {"pie --rates 1:10 --measured 18:12", "YIELD:CONSISTENCY:INDEX"},
+      {"pie --steps 1000000000000", "--steps"},
+      {"pie --time 0", "--time"},
       {"pie --chart curve.bmp", ".svg"},
       {elastic + " --rates 1:10", "yield"},
   };

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "sim/error.h"
+
 namespace lather::study {
 namespace {
 
@@ -17,6 +19,29 @@ TEST(FlowModels, AMeasuredFlowCurveComesBackFromItsParameters) {
   EXPECT_NEAR(back.consistency, 12.6, 1e-12);
   EXPECT_EQ(back.flow_index, 0.4);
   EXPECT_EQ(law.shear_modulus, 290);
+}
+
+TEST(FlowModels, AMaterialMadeFromAMeasuredFlowCurveFlowsByIt) {
+  // A soap foam's, a dry foam's and an emulsion's kind of curve, over four decades of the rate.
+  for (const char* text : {"18:12:0.4", "55:5.5:0.47", "18.4:17.8:0.22", "0:3:1"}) {
+    const PowerLaw measured = read_power_law(text);
+    HerschelBulkleyParameters law = {77.7, 109e3, 0, 0, 0, 1};
+    // Stiff: s/mu = sqrt(2) tau/mu is 0.01 at the highest rate.
+    law.shear_modulus = 100 * std::sqrt(2.0) * stress_at(measured, 100);
+    set_flow(law, measured);
+    for (const SteadyFlow& flow : flow_curve(law, {0.01, 100, 9})) {
+      // An elastic strain of 0.01 changes the stress by its square, 1e-4, and the law's step of 1e-4 by its
+      // own size.
+      EXPECT_NEAR(flow.stress.tau_xy, stress_at(measured, flow.rate), 3e-4 * flow.stress.tau_xy)
+          << text << " at " << flow.rate << "/s";
+    }
+  }
+}
+
+TEST(FlowModels, RefusesWhatIsNoMeasuredFlowCurve) {
+  for (const char* text : {"", "18", "18:12", "18:12:0", "18:-12:0.4", "-1:12:0.4", "18:12:0.4:1", "a:b:c",
+                           "18:12:inf", "18:12:nan"})
+    EXPECT_THROW((void)read_power_law(text), InputError) << text;
 }
 
 TEST(FlowModels, EffectiveViscosityIsTheStressOverTheFlow) {

@@ -126,6 +126,10 @@ TEST(Rheometer, FlowCurveAsJsonHasListsOfOneLength) {
   const Value json = parse_json(to_json(law, flow_curve(law, {0.1, 10, 3})));
   for (const char* key : {"rate", "tau_xy", "n1", "s", "power_law", "steady"})
     EXPECT_EQ(length(json, key), 3U) << key;
+  EXPECT_EQ(json.find("measured"), nullptr);
+  const Value beside = parse_json(to_json(law, flow_curve(law, {0.1, 10, 3}), PowerLaw{18, 12, 0.4}));
+  EXPECT_EQ(length(beside, "measured"), 3U);
+  EXPECT_NE(beside.find("measured_parameters"), nullptr);
   const Value* viscosity = json.find("effective_viscosity");
   ASSERT_NE(viscosity, nullptr);
   for (const char* key : {"herschel_bulkley", "viscoplastic", "bargteil"})

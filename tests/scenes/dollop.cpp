@@ -1,0 +1,72 @@
+#include "tests/scenes/dollop.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/scenes/clusters.h"
+#include "tests/scenes/scene_run.h"
+
+namespace lather::testing_support {
+namespace {
+
+constexpr double kPart = 0.02;     // share of the points that a part holds at least
+constexpr double kLasting = 0.03;  // s that parts stay apart: the spoon rises by a cell or two meanwhile
+
+// Frames are 4 ms apart, so that the times of separation are told apart.
+Scene dollop(const std::string& size, std::vector<Override> overrides) {
+  overrides.push_back({"/frame_rate", "250"});
+  return scene_file("pulled-dollop", size, overrides);
+}
+
+Pull pull(const char* name, const Scene& scene, int threads) {
+  const Pull p = pull_dollop(scene, threads, kLasting);
+  std::printf("  %-8s in two parts from %.3f s on; %.0f s of computing to %.3f s, %llu steps of %.3g s\n",
+              name, p.separated.value_or(-1), p.report.wall_seconds, p.report.simulated_time,
+              static_cast<unsigned long long>(p.report.steps), p.report.largest_time_step);
+  std::fflush(stdout);
+  return p;
+}
+
+}  // namespace
+
+Pull pull_dollop(const Scene& scene, int threads, double lasting) {
+  Pull p;
+  const auto simulation = Simulation::create(make_plan(scene), threads);
+  for (int i = 0; i <= scene.last_frame(); ++i) {
+    simulation->step_to_frame(i, [](const Progress&) { return true; });
+    const double time = simulation->report().simulated_time;
+    if (find_clusters(*simulation, scene.spacing).share(1) < kPart)
+      p.separated.reset();
+    else if (!p.separated)
+      p.separated = time;
+    if (p.separated && time >= *p.separated + lasting) break;
+  }
+  p.report = simulation->report();
+  return p;
+}
+
+void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads) {
+  const std::string material = "/materials/0/";
+  const Pull brittle = pull("brittle", dollop(size, {{material + "recovery_time", "100"}}), threads);
+  const Pull sticky = pull("sticky", dollop(size, {}), threads);
+  const Pull untorn = pull("untorn", dollop(size, {{material + "tear_threshold", R"("infinity")"}}), threads);
+
+  ASSERT_TRUE(brittle.separated && sticky.separated);
+  // Bonds that recover while the neck thins make it tear later.
+  EXPECT_LT(*brittle.separated, *sticky.separated);
+  // All are pulled alike, so an equal time is an equal stretch.
+  EXPECT_GT(untorn.separated.value_or(1e30), *sticky.separated);
+}
+
+void expect_removal_takes_little(const std::string& size, int threads) {
+  const Scene scene = dollop(size, {{"/numerics/subgrid_removal", "{}"}});
+  const Report r = run_scene(scene, threads);
+  const double removed = r.frames.back().mass_removed / r.frames.front().mass;
+  std::printf("  removed: %llu points, %.4f %% of the mass\n",
+              static_cast<unsigned long long>(r.frames.back().points_removed), 100 * removed);
+  EXPECT_GT(removed, 0);
+  EXPECT_LT(removed, 0.0028);
+}
+
+}  // namespace lather::testing_support

@@ -1,0 +1,155 @@
+#include "tests/scenes/smore.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "tests/scenes/clusters.h"
+#include "tests/scenes/scene_run.h"
+
+namespace lather::testing_support {
+namespace {
+
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+// Geometry of scenes/smore.json, m.
+struct Hole {
+  double x;
+  double z;
+  double radius;
+};
+constexpr std::array<Hole, 5> kHoles = {{{0, 0, 0.010},
+                                         {0.026, 0.026, 0.007},
+                                         {-0.026, 0.026, 0.007},
+                                         {0.026, -0.026, 0.007},
+                                         {-0.026, -0.026, 0.007}}};
+constexpr double kHalfCracker = 0.005;
+constexpr double kFullPress = 0.0405;  // height of the cracker's middle
+constexpr double kRim = 0.030;         // from the axis: beyond lies only foam that was pressed out
+constexpr double kLifted = 0.9;        // s
+
+// The foam fills the holes and rises by half the middle one's radius, 5 mm (one spacing of the preview), over
+// it, and over the rims of all others, for 0.06 s: most of the time that the cracker rests.
+constexpr double kBulge = 0.005;     // m
+constexpr double kBulgeTime = 0.06;  // s
+// The peak: from the end of the lift on, its tip is 25 mm over the plane to which the cracker had pressed the
+// foam (more than twice the depth of foam left there), and 15 mm over all that lies beside it.
+constexpr double kOverPress = 0.025;
+constexpr double kOverRest = 0.015;
+
+/// Height of the foam over the top face of the cracker in each hole, m.
+std::array<double, 5> bulges(const Simulation& simulation, double top_face) {
+  std::array<double, 5> over;
+  over.fill(kNone);
+  simulation.visit_points([&](const PointState& p) {
+    for (std::size_t k = 0; k < kHoles.size(); ++k)
+      if (std::hypot(p.position.x() - kHoles[k].x, p.position.z() - kHoles[k].z) < kHoles[k].radius)
+        over[k] = std::max(over[k], p.position.y() - top_face);
+  });
+  return over;
+}
+
+/// The largest connected part of the foam: its tip, and the highest point beyond the rim, m.
+struct Peak {
+  double tip = kNone;
+  double rest = kNone;
+};
+
+Peak find_peak(const Simulation& simulation, double spacing) {
+  const Clusters c = find_clusters(simulation, spacing);
+  Peak peak;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    if (c.cluster[i] != 0) continue;
+    const Vec3& x = c.points[i].position;
+    peak.tip = std::max(peak.tip, x.y());
+    if (std::hypot(x.x(), x.z()) > kRim) peak.rest = std::max(peak.rest, x.y());
+  }
+  return peak;
+}
+
+}  // namespace
+
+void expect_foam_through_holes_and_a_peak(const Scene& scene, int threads) {
+  const Obstacle& cracker = scene.obstacles.back();
+  ASSERT_EQ(cracker.name, "upper cracker");
+  double bulging = 0;  // s
+  Peak least;          // over all frames after the lift
+  least.tip = std::numeric_limits<double>::infinity();
+  run_scene(scene, threads, [&](int frame, const Simulation& simulation) {
+    const double t = frame / scene.frame_rate;
+    const double middle = pose_at(cracker.motion, t).translation.y();
+    const std::array<double, 5> over = bulges(simulation, middle + kHalfCracker);
+    if (middle < kFullPress + kHalfCracker) {  // around full press
+      if (over[0] >= kBulge && *std::min_element(over.begin(), over.end()) > 0)
+        bulging += 1 / scene.frame_rate;
+      std::printf("  %.3f s: over the holes %.1f, %.1f, %.1f, %.1f, %.1f mm\n", t, 1e3 * over[0],
+                  1e3 * over[1], 1e3 * over[2], 1e3 * over[3], 1e3 * over[4]);
+    }
+    if (t < kLifted) return;
+    const Peak peak = find_peak(simulation, scene.spacing);
+    least.tip = std::min(least.tip, peak.tip);
+    least.rest = std::max(least.rest, peak.rest);
+  });
+  std::printf("  peak at least %.1f mm over the pressed plane, %.1f mm over the rest\n",
+              1e3 * (least.tip - kFullPress + kHalfCracker), 1e3 * (least.tip - least.rest));
+  EXPECT_GE(bulging, kBulgeTime);
+  EXPECT_GE(least.tip - (kFullPress - kHalfCracker), kOverPress);
+  EXPECT_GE(least.tip - least.rest, kOverRest);
+}
+
+Crust find_crust(const Simulation& simulation) {
+  constexpr int kSectors = 72;
+  const Frame f = simulation.frame();
+  const auto scalar = std::find_if(f.points.scalars.begin(), f.points.scalars.end(),
+                                   [](const PointScalar& s) { return s.name == "weak"; });
+  EXPECT_NE(scalar, f.points.scalars.end());
+  const auto sector = [&](std::size_t p) {
+    const double angle = std::atan2(f.points.position[p][2], f.points.position[p][0]);
+    return std::clamp(static_cast<int>((angle / M_PI + 1) / 2 * kSectors), 0, kSectors - 1);
+  };
+  const auto radius = [&](std::size_t p) {
+    return std::hypot(f.points.position[p][0], f.points.position[p][2]);
+  };
+  std::array<float, kSectors> shell_radius{};
+  std::array<double, 2> count{};
+  Crust crust;
+  for (std::size_t p = 0; p < f.points.size(); ++p) {
+    ++count[f.points.material[p]];
+    if (f.points.material[p] == 0) continue;
+    crust.weak += static_cast<double>(scalar->values[p]);
+    float& r = shell_radius[sector(p)];
+    r = std::max(r, radius(p));
+  }
+  for (std::size_t p = 0; p < f.points.size(); ++p)
+    if (f.points.material[p] == 0 && radius(p) > shell_radius[sector(p)]) ++crust.outside;
+  crust.outside /= count[0];
+  crust.weak /= count[1];
+  return crust;
+}
+
+void expect_crust_tears_before_core_flows(Scene scene, int threads) {
+  scene.output.scalars = {"weak"};
+  double torn = -1;  // s, when 1 % of the shell is weak
+  double out = -1;   // s, when 0.1 % of the core is outside, a dozen points of the preview
+  double most_outside = 0;
+  run_scene(scene, threads, [&](int frame, const Simulation& simulation) {
+    const double t = frame / scene.frame_rate;
+    const Crust crust = find_crust(simulation);
+    std::printf("  %.3f s: %.2f %% of the shell weak, %.2f %% of the core outside\n", t, 100 * crust.weak,
+                100 * crust.outside);
+    if (torn < 0 && crust.weak >= 0.01) torn = t;
+    if (out < 0 && crust.outside >= 0.001) out = t;
+    most_outside = std::max(most_outside, crust.outside);
+  });
+  ASSERT_GT(torn, 0);
+  // The first crack has to open by the width of a sector before the core shows in it.
+  EXPECT_GT(out, torn);
+  // It keeps flowing out: ten times what counts as the first of it.
+  EXPECT_GT(most_outside, 0.01);
+}
+
+}  // namespace lather::testing_support
