@@ -1,8 +1,9 @@
-// The sheared blob [Foam Figure 6] at half the preview's spacing and less: 5,524 points, 2 mm, all of the scene.
-
-#include "tests/scenes/sheared_blob.h"
+// The sheared blob [Foam Figure 6] at half the preview's spacing and less: 5,524 points, 2 mm, all of the
+// scene.
 
 #include <gtest/gtest.h>
+
+#include "tests/scenes/sheared_blob.h"
 
 namespace lather::testing_support {
 namespace {

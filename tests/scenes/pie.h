@@ -9,8 +9,8 @@
 namespace lather::testing_support {
 
 /// Where thrown cream is, as shares of its points. A cluster (balls of half a spacing, see clusters.h) lies
-/// on the floor if any of its points is within two spacings of it, as far as the cubic kernel carries contact,
-/// else on the face if one is as near to that, else it floats.
+/// on the floor if any of its points is within two spacings of it, as far as the cubic kernel carries
+/// contact, else on the face if one is as near to that, else it floats.
 struct Splat {
   double on_face = 0;
   double on_floor = 0;
