@@ -138,7 +138,9 @@ TEST(Union, LeavesOutNothingThatCounts) {
                           {0.6 * i - 1, 0.2 * i, 0.1 * i}, {20.0 * i, 0, 10}, 1 + 0.2 * i)}));
   const Shape together{UnionShape{parts, width}};
   for (int n = 0; n < 20 * 20 * 20; ++n) {
-    const Vec3 x = Vec3(n % 20, n / 20 % 20, n / 400) * 0.3 - Vec3(3, 3, 3);
+    const int plane = n / 400;
+    const int row = n / 20 % 20;
+    const Vec3 x = Vec3(n % 20, row, plane) * 0.3 - Vec3(3, 3, 3);
     double expected = distance(*parts[0], x);
     for (int i = 1; i < 4; ++i) {
       const double other = distance(*parts[i], x);
