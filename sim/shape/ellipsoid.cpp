@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/shape/primitives.h"
@@ -85,6 +86,12 @@ double distance(const EllipsoidShape& s, const Vec3& x) {
   if (distance2 < 0) distance2 = squared_distance_by_newton(p);
   const double magnitude = p.unit * std::sqrt(distance2);
   return inside ? -magnitude : magnitude;
+}
+
+double least_distance(const EllipsoidShape& s, const Vec3& x) {
+  // |x / radii| is 1 on the surface and grows by at most 1 over the smallest half axis.
+  const double over = x.cwiseQuotient(s.radii).norm() - 1;
+  return over > 0 ? over * s.radii.minCoeff() : -std::numeric_limits<double>::infinity();
 }
 
 }  // namespace lather::primitive

@@ -15,4 +15,7 @@ namespace lather::primitive {
 [[nodiscard]] double distance(const PlaneShape& s, const Vec3& x);
 [[nodiscard]] double distance(const RevolutionShape& s, const Vec3& x);
 
+/// Never more than the distance, and cheap to have; -infinity inside.
+[[nodiscard]] double least_distance(const EllipsoidShape& s, const Vec3& x);
+
 }  // namespace lather::primitive

@@ -20,7 +20,7 @@ Scene dollop(const std::string& size, std::vector<Override> overrides) {
 }
 
 Pull pull(const char* name, const Scene& scene, int threads) {
-  const Pull p = pull_dollop(scene, threads, kLasting);
+  Pull p = pull_dollop(scene, threads, kLasting);
   std::printf("  %-8s in two parts from %.3f s on; %.0f s of computing to %.3f s, %llu steps of %.3g s\n",
               name, p.separated.value_or(-1), p.report.wall_seconds, p.report.simulated_time,
               static_cast<unsigned long long>(p.report.steps), p.report.largest_time_step);

@@ -1,7 +1,7 @@
 // The dropped spheres and penguins at the paper's size, from the impact to the rebound's top.
 //
 // The printed step is 5e-6 s. These runs take the step that the plan chooses, ten times as long, which the
-// blend per time allows, and resample at most 2 % of shear apart in a body that is sheared at 50/s.
+// blend per time allows, and resample every 1 ms, 5 % of shear apart in a body that is sheared at 50/s.
 
 #include <gtest/gtest.h>
 

@@ -29,8 +29,7 @@ double mass_drift(const Report& r) {
 }
 
 Report run_blob(const std::string& size, const std::string& resampling, int threads) {
-  const Report r =
-      run_scene(scene_file("sheared-blob", size, {{"/numerics/resampling", resampling}}), threads);
+  Report r = run_scene(scene_file("sheared-blob", size, {{"/numerics/resampling", resampling}}), threads);
   const FrameMeasure& last = r.frames.back();
   std::printf(
       "  resampling %s: at most %lld voids; %llu points in, %llu merged; mass drift %.1e; "

@@ -36,8 +36,8 @@ constexpr double kLifted = 0.9;        // s
 // it, and over the rims of all others, for 0.06 s: most of the time that the cracker rests.
 constexpr double kBulge = 0.005;     // m
 constexpr double kBulgeTime = 0.06;  // s
-// The peak: from the end of the lift on, its tip is 25 mm over the plane to which the cracker had pressed the
-// foam (more than twice the depth of foam left there), and 15 mm over all that lies beside it.
+// The peak: from the end of the lift on, 0.2 s, its tip is 25 mm over the plane to which the cracker had
+// pressed the foam (more than twice the depth of foam left there), and 15 mm over all that lies beside it.
 constexpr double kOverPress = 0.025;
 constexpr double kOverRest = 0.015;
 

@@ -14,7 +14,7 @@ class Files : public Blackbox {
     return scene;
   }
   std::string finished_job(const Json& scene) {
-    const std::string id = post_job(scene);
+    std::string id = post_job(scene);
     EXPECT_TRUE(reaches(id, "succeeded")) << job(id).dump();
     return id;
   }

@@ -12,7 +12,7 @@ namespace {
 class StudyCommand : public Command {
  protected:
   [[nodiscard]] std::string file(const std::string& name, const std::string& text = {}) {
-    const std::string path = (directory_.path() / name).string();
+    std::string path = (directory_.path() / name).string();
     if (!text.empty()) std::ofstream(path) << text;
     return path;
   }

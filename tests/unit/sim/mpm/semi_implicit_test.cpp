@@ -77,7 +77,7 @@ TEST(SemiImplicit, TendsToTheExplicitStepAtFirstOrder) {
     auto set = shorter;
     set.push_back({"/numerics/integration", integration});
     set.push_back({"/numerics/time_step", std::to_string(step)});
-    const FrameMeasure& f = run(ringing_cube(), set).frames.back();
+    const FrameMeasure f = run(ringing_cube(), set).frames.back();
     return f.elastic_volume_energy + f.elastic_shear_energy;
   };
   const auto difference = [&](double step) {

@@ -127,6 +127,30 @@ TEST(Distance, OfASmoothUnionDiffersFromThePlainOneByAQuarterOfTheSmoothingAtMos
   EXPECT_NEAR(distance(plain, {0.35, 3, 0}) - distance(smooth, {0.35, 3, 0}), 0.05, 1e-12);
 }
 
+TEST(Union, LeavesOutNothingThatCounts) {
+  // Four ellipsoids: the union spares itself the distances of those that are far. Here is the union of all of
+  // them, written out.
+  const double width = 0.3;
+  std::vector<ShapePtr> parts;
+  for (int i = 0; i < 4; ++i)
+    parts.push_back(std::make_shared<Shape>(
+        Shape{PlacedShape(std::make_shared<Shape>(Shape{EllipsoidShape{{0.3 + 0.1 * i, 0.5, 0.8 - 0.1 * i}}}),
+                          {0.6 * i - 1, 0.2 * i, 0.1 * i}, {20.0 * i, 0, 10}, 1 + 0.2 * i)}));
+  const Shape together{UnionShape{parts, width}};
+  for (int n = 0; n < 20 * 20 * 20; ++n) {
+    const int plane = n / 400;
+    const int row = n / 20 % 20;
+    const Vec3 x = Vec3(n % 20, row, plane) * 0.3 - Vec3(3, 3, 3);
+    double expected = distance(*parts[0], x);
+    for (int i = 1; i < 4; ++i) {
+      const double other = distance(*parts[i], x);
+      const double overlap = std::max(width - std::abs(expected - other), 0.0);
+      expected = std::min(expected, other) - 0.25 * overlap * overlap / width;
+    }
+    ASSERT_EQ(distance(together, x), expected) << x.transpose();
+  }
+}
+
 TEST(Normal, IsUnitAndPointsOutOfTheShape) {
   const Shape box{BoxShape{{2, 4, 6}, 0}};
   EXPECT_TRUE(normal(box, {1, 0.3, 0.2}, 1e-6).isApprox(Vec3::UnitX(), 1e-9));
