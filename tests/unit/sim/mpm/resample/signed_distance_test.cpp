@@ -19,7 +19,7 @@ using testing_support::Foam;
 class Twin {
  public:
   Twin(const std::vector<Vec3>& points, int dimension, int size)
-      : dimension_(dimension), size_(size), z_(dimension == 3 ? size : 0) {
+      : size_(size), z_(dimension == 3 ? size : 0) {
     for_nodes([&](const Vec3& x) {
       double nearest = 1e30;
       for (const Vec3& p : points) nearest = std::min(nearest, (p - x).norm());
@@ -51,7 +51,6 @@ class Twin {
     return {static_cast<int>(std::lround(x.x())), static_cast<int>(std::lround(x.y())),
             static_cast<int>(std::lround(x.z()))};
   }
-  int dimension_;
   int size_;
   int z_;
   std::map<std::array<int, 3>, double> sign_;
