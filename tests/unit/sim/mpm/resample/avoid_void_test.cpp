@@ -96,9 +96,10 @@ TEST_P(AvoidVoid, NewPointsKeepOutOfAllSpheresAndAwayFromTheSurface) {
   }
 }
 
-// "a" tears and holds F, "b" does not: each material's new and merged points take values of its own list.
-TEST_P(AvoidVoid, PointsOfAMaterialWithFewerFieldsTakeTheirOwnValues) {
-  Foam foam = Foam::with_untearing_b(GetParam());
+// "b" tears and holds F, "a" before it does not: new and merged points take the values of their own list.
+TEST_P(AvoidVoid, PointsOfAMaterialWithMoreFieldsTakeAllOfThem) {
+  Foam foam = Foam::with_untearing_a(GetParam());
+  ASSERT_FALSE(foam.sets[0].layout().has(Field::kDeformation));
   const auto ball_with_hole = [](const Vec3& x) {
     return in_ball(x) && !(std::abs(x.y() - 0.5) < 0.1 && std::abs(x.z()) < 0.6 && std::abs(x.x()) < 6);
   };
@@ -117,6 +118,7 @@ TEST_P(AvoidVoid, PointsOfAMaterialWithFewerFieldsTakeTheirOwnValues) {
     for (int a = 0; a < GetParam(); ++a) b.values<double>(t, Field::kVelocity, a)[lane] = v[a];
     b.values<double>(t, Field::kVolumeChange)[lane] = 0.25;
     b.values<double>(t, Field::kAffine, 1)[lane] = 0.75;
+    b.values<double>(t, Field::kDeformation, 0)[lane] = 0.25;  // F = diag(1.25, 1, 1), det F = J
   });
   const Outcome done = foam.avoid_void(1);
   ASSERT_GT(done.inserted, 5U);
@@ -125,6 +127,7 @@ TEST_P(AvoidVoid, PointsOfAMaterialWithFewerFieldsTakeTheirOwnValues) {
     EXPECT_LT((b.velocity(t, lane) - v).norm(), 1e-12);
     EXPECT_NEAR(b.values<double>(t, Field::kVolumeChange)[lane], 0.25, 1e-12);
     EXPECT_NEAR(b.values<double>(t, Field::kAffine, 1)[lane], 0.75, 1e-12);
+    EXPECT_NEAR(b.values<double>(t, Field::kDeformation, 0)[lane], 0.25, 1e-12);
   });
 }
 

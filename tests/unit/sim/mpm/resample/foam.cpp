@@ -5,7 +5,7 @@
 namespace lather::testing_support {
 namespace {
 
-Plan plan_of(int dimension, bool periodic, const char* tear_threshold_of_b) {
+Plan plan_of(int dimension, bool periodic, const char* tear_threshold_of_a) {
   return make_plan(parse_scene(
       R"({"lather": 1, "domain": {"min": [-24, -24, -24], "max": [24, 24, 24], "periodic": [true, false, false]},
     "duration": 1, "spacing": 2, "gravity": [0, 0, 0],
@@ -15,16 +15,17 @@ Plan plan_of(int dimension, bool periodic, const char* tear_threshold_of_b) {
       "",
       {{"/dimension", std::to_string(dimension)},
        {"/domain/periodic/0", periodic ? "true" : "false"},
-       {"/materials/1/tear_threshold", tear_threshold_of_b}}));
+       {"/materials/0/tear_threshold", tear_threshold_of_a},
+       {"/materials/1/tear_threshold", "1"}}));
 }
 
 }  // namespace
 
-Foam::Foam(int dimension, bool periodic) : Foam(dimension, periodic, "1") {}
+Foam::Foam(int dimension, bool periodic) : Foam(dimension, periodic, "217.5") {}
 
-Foam::Foam(int dimension, bool periodic, const char* tear_threshold_of_b)
+Foam::Foam(int dimension, bool periodic, const char* tear_threshold_of_a)
     : dimension_(dimension),
-      model_(std::make_unique<mpm::Model<double>>(plan_of(dimension, periodic, tear_threshold_of_b))),
+      model_(std::make_unique<mpm::Model<double>>(plan_of(dimension, periodic, tear_threshold_of_a))),
       grid_(dimension, true) {
   const Scene& scene = model_->scene;
   for (int s = 0; s < 2; ++s)
