@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "render/canvas.h"
+#include "sim/error.h"
 
 namespace lather::render {
 namespace {
@@ -88,12 +89,18 @@ Image contact_sheet(const std::vector<SheetRow>& rows, int width) {
   constexpr int kTitleHeight = kGlyphHeight * kTitle + 2 * kGap;
   constexpr int kCaptionHeight = kGlyphHeight * kTime + kGap;
   std::size_t most = 0;
-  int height = kGap;
+  std::int64_t wanted = kGap;
   for (const SheetRow& row : rows) {
     most = std::max(most, row.pictures.size());
-    height += kTitleHeight + row_height(row, width) + kCaptionHeight;
+    wanted += kTitleHeight + row_height(row, width) + kCaptionHeight;
   }
-  const int sheet_width = kGap + static_cast<int>(most) * (width + kGap);
+  const std::int64_t across = kGap + static_cast<std::int64_t>(most) * (width + kGap);
+  if (across > kLargestSheet || wanted > kLargestSheet)
+    throw InputError({{"", std::to_string(across) + " x " + std::to_string(wanted) + " px",
+                       "a sheet of at most " + std::to_string(kLargestSheet) + " px a side",
+                       "Take fewer runs, fewer pictures of each, or a smaller --width."}});
+  const auto height = static_cast<int>(wanted);
+  const auto sheet_width = static_cast<int>(across);
   Image sheet{sheet_width, height,
               std::vector<std::uint8_t>(static_cast<std::size_t>(3 * sheet_width * height))};
   Canvas canvas(sheet);

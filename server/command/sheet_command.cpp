@@ -41,7 +41,7 @@ void add_picture(render::SheetRow& row, const fs::path& file, int width) {
     throw InputError({{"", file.string(), "a picture that Lather made", e.what()}});
   }
   if (image.width < width)
-    throw InputError({{"/--width", std::to_string(width), "1 to " + std::to_string(image.width),
+    throw InputError({{"", "--width " + std::to_string(width), "1 to " + std::to_string(image.width),
                        "The pictures in " + file.parent_path().string() + " are smaller than that."}});
   row.pictures.push_back({std::move(image), time});
 }

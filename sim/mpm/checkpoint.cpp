@@ -6,7 +6,7 @@
 namespace lather::mpm {
 namespace {
 
-constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '2'};
+constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '3'};
 
 [[noreturn]] void refuse(const std::string& why) {
   throw InputError({{"", "", "the bytes of a checkpoint of the same scene, kernel level and version", why}});

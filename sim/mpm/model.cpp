@@ -22,27 +22,27 @@ CellBounds cell_bounds(const Scene& scene) {
 template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
   const HerschelBulkleyParameters& law = material.herschel_bulkley;
-  const double volume = std::pow(scene.spacing, scene.dimension) / scene.points_per_cell;
+  const double volume = scene.point_volume();
   return {static_cast<Real>(law.density * volume),
           static_cast<Real>(volume),
           herschel_bulkley_constants<Real>(law),
           {static_cast<Real>(material.tearing.tear_threshold)}};
 }
 
-template <class Real>
-resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds,
-                                   const std::vector<MaterialConstants<Real>>& materials) {
+resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds) {
   resample::Resampler r;
   r.lattice = resample::Lattice(plan.scene);
   r.bounds = bounds;
-  for (const MaterialConstants<Real>& m : materials) r.mass.push_back(static_cast<double>(m.mass));
   const bool cubic = plan.scene.numerics.kernel == Kernel::kCubic;
   const PointKernels<double>& point = kernel_table<double>(plan.choices.kernel_level).point;
   r.weights = [cubic, weights = point.weights](double fraction, double* weight) {
     double derivative[4];
     return weights(cubic, fraction, weight, derivative);
   };
-  for (const Material& m : plan.scene.materials) r.tears.tear_threshold.push_back(m.tearing.tear_threshold);
+  for (const Material& m : plan.scene.materials) {
+    r.mass.push_back(m.herschel_bulkley.density * plan.scene.point_volume());
+    r.tears.tear_threshold.push_back(m.tearing.tear_threshold);
+  }
   r.tears.plasticity = point.tearing.plasticity;
   if (plan.scene.numerics.resampling) r.velocity = plan.scene.numerics.resampling->velocity;
   return r;
@@ -67,7 +67,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   point = table.point;
   kernels = table.step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
   for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
-  resampler = make_resampler(plan, bounds, materials);
+  resampler = make_resampler(plan, bounds);
   removal = subgrid_search(scene, resampler);
   // See kHomeShift. A little less, for the rounding of sums of displacements.
   drift_margin = (cubic ? 0.5 : 1.0) - 1e-3;

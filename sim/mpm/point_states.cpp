@@ -15,6 +15,18 @@ void read_law_state(const ParticleSet<Real>& set, std::size_t tile, int lane, Re
 }  // namespace
 
 template <class Real>
+std::array<double, 6> law_stress(const ParticleSet<Real>& set, const MaterialConstants<Real>& material,
+                                 const PointKernels<Real>& kernels, std::size_t tile, int lane) {
+  Real law_state[7] = {};
+  Real tau[6];
+  read_law_state(set, tile, lane, law_state);
+  kernels.stress(material.law, law_state, tau);
+  std::array<double, 6> stress{};
+  for (std::size_t c = 0; c < 6; ++c) stress[c] = static_cast<double>(tau[c]);
+  return stress;
+}
+
+template <class Real>
 void visit_states(const State<Real>& state, const Model<Real>& model, const PointKernels<Real>& kernels,
                   const std::function<void(const PointState&)>& visit) {
   for (std::size_t m = 0; m < state.sets.size(); ++m) {
@@ -27,16 +39,16 @@ void visit_states(const State<Real>& state, const Model<Real>& model, const Poin
         point.material = static_cast<std::uint32_t>(m);
         point.position = set.position(t, lane);
         point.velocity = set.velocity(t, lane);
-        Real law_state[7] = {};
-        Real tau[6];
-        read_law_state(set, t, lane, law_state);
-        kernels.stress(model.materials[m].law, law_state, tau);
-        for (std::size_t c = 0; c < 6; ++c) point.stress[c] = static_cast<double>(tau[c]);
+        point.stress = law_stress(set, model.materials[m], kernels, t, lane);
         visit(point);
       }
   }
 }
 
+template std::array<double, 6> law_stress(const ParticleSet<float>&, const MaterialConstants<float>&,
+                                          const PointKernels<float>&, std::size_t, int);
+template std::array<double, 6> law_stress(const ParticleSet<double>&, const MaterialConstants<double>&,
+                                          const PointKernels<double>&, std::size_t, int);
 template void visit_states(const State<float>&, const Model<float>&, const PointKernels<float>&,
                            const std::function<void(const PointState&)>&);
 template void visit_states(const State<double>&, const Model<double>&, const PointKernels<double>&,

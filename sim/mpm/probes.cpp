@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/math/parallel.h"
+#include "sim/mpm/point_states.h"
 
 namespace lather::mpm {
 namespace {
@@ -86,18 +87,13 @@ class PointReader {
   void add(Surroundings& sum, double w, std::size_t s, std::size_t t, int lane) const {
     const MaterialConstants<Real>& material = model_.materials[s];
     const ParticleSet<Real>& set = state_.sets[s];
-    const auto at = [&](Field f, int c) { return set.template values<Real>(t, f, c)[lane]; };
-    Real strain[7] = {at(Field::kVolumeChange, 0)};
-    for (int c = 0; c < (model_.scene.dimension == 3 ? 6 : 4); ++c)
-      strain[1 + c] = at(Field::kElasticStrain, c);
-    Real tau[6];
-    model_.point.stress(material.law, strain, tau);
+    const std::array<double, 6> tau = law_stress(set, material, model_.point, t, lane);
     const double volume = set.share(t, lane) * static_cast<double>(material.volume);
     const double mass = set.share(t, lane) * static_cast<double>(material.mass);
     sum.mass += w * mass;
     sum.momentum += w * mass * set.velocity(t, lane);
     sum.volume += w * volume * volume_ratio(s, t, lane);
-    for (int c = 0; c < 6; ++c) sum.stress[c] += w * volume * static_cast<double>(tau[c]);
+    for (int c = 0; c < 6; ++c) sum.stress[c] += w * volume * tau[static_cast<std::size_t>(c)];
   }
 
   const State<Real>& state_;

@@ -176,7 +176,7 @@ class MpmSimulation final : public Simulation {
   /// What came in and went out since the start.
   void report_flows(FrameMeasure& m) {
     for (std::size_t s = 0; s < state_.sets.size(); ++s) {
-      const auto mass = static_cast<double>(model_.materials[s].mass);
+      const double mass = model_.scene.materials[s].herschel_bulkley.density * model_.scene.point_volume();
       m.points_emitted += state_.points_emitted[s];
       m.mass_emitted += mass * static_cast<double>(state_.points_emitted[s]);
       m.points_left += state_.left[s].points;

@@ -31,7 +31,7 @@ class PointMeasure {
         law_(material.herschel_bulkley),
         tear_threshold_(static_cast<Real>(material.tearing.tear_threshold)),
         set_(set),
-        volume_(std::pow(scene.spacing, scene.dimension) / scene.points_per_cell),
+        volume_(scene.point_volume()),
         moment_((scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25) * scene.spacing *
                 scene.spacing) {}
 

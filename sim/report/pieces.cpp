@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <numeric>
+
+#include "sim/math/disjoint_sets.h"
 
 namespace lather {
 namespace {
@@ -55,31 +56,12 @@ std::vector<Cell> occupied_cells(const std::vector<ParticleSet<Real>>& sets, con
   return cells;
 }
 
-/// Sets of cells that are known to be connected; the smallest index stands for its set.
-class Union {
- public:
-  explicit Union(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    const std::size_t x = root(a);
-    const std::size_t y = root(b);
-    parent_[std::max(x, y)] = std::min(x, y);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 }  // namespace
 
 template <class Real>
 Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds) {
   const std::vector<Cell> cells = occupied_cells(sets, bounds);
-  Union connected(cells.size());
+  DisjointSets connected(cells.size());
   const int across = bounds.dimension == 3 ? 1 : 0;
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (int dx = 0; dx <= 1; ++dx)

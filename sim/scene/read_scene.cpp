@@ -110,6 +110,10 @@ Scene read(const Value& document, const MeshSource& source, std::vector<Problem>
 
 }  // namespace
 
+double Scene::point_volume() const {
+  return std::pow(spacing, dimension) / points_per_cell;
+}
+
 int Scene::last_frame() const {
   return static_cast<int>(std::floor(duration * frame_rate + 1e-9));
 }

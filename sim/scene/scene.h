@@ -139,6 +139,9 @@ struct Scene {
   /// Does anything in it ask for the surface of the points?
   [[nodiscard]] bool wants_skin() const;
 
+  /// Volume that a point is sampled with, m^3; m^3 per metre of depth in 2D.
+  [[nodiscard]] double point_volume() const;
+
   /// Frames 0 … last; frame 0 is t = 0.
   [[nodiscard]] int last_frame() const;
 };

@@ -77,16 +77,16 @@ void check_samples(const Scene& scene, const Place& root) {
       "The probes would take " + text_of(std::round(samples)) + " samples; raise their \"interval\".");
 }
 
-/// The semi-implicit solver holds nodes at obstacles within its solve and does not tell with what force.
-void check_loads(const Scene& scene, const Place& root) {
+/// A semi-implicit step holds nodes at obstacles while it solves; what that takes is not told obstacle by
+/// obstacle.
+void check_probes_of_forces(const Scene& scene, const Place& root) {
   if (scene.numerics.integration != Integration::kSemiImplicit) return;
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const auto& kind = scene.probes[i].kind;
     if (!std::holds_alternative<ForceProbe>(kind) && !std::holds_alternative<WallProbe>(kind)) continue;
-    root.at("probes").at(i).refuse(
-        nullptr, "a point or plane probe with semi-implicit steps",
-        "Forces on obstacles and walls are measured with explicit steps only; take "
-        "out this probe or set /numerics/integration to \"explicit\".");
+    root.at("probes").at(i).at("type").refuse(
+        Value(std::holds_alternative<ForceProbe>(kind) ? "force" : "walls"), "\"point\" or \"plane\"",
+        "Forces are measured with \"integration\": \"explicit\" only.");
   }
 }
 
@@ -223,7 +223,7 @@ void check_whole(const Value& document, Scene& scene, const Place& root) {
   if (check_cells(document, scene, root)) check_periods(scene, root);
   check_frames(document, scene, root);
   check_samples(scene, root);
-  check_loads(scene, root);
+  check_probes_of_forces(scene, root);
   check_any_material_there(document, scene, root);
   if (scene.dimension == 2) check_plane(document, scene, root);
   check_skin(document, scene, root);

@@ -4,31 +4,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "sim/math/disjoint_sets.h"
 
 namespace lather::testing_support {
 namespace {
 
 using Cell = std::array<int, 3>;
-
-/// Disjoint sets of indices; each is known by one of them, its root.
-class Forest {
- public:
-  explicit Forest(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// The points by cells of width `reach`.
 std::map<Cell, std::vector<std::uint32_t>> binned(const std::vector<PointState>& points, double reach) {
@@ -43,9 +25,9 @@ std::map<Cell, std::vector<std::uint32_t>> binned(const std::vector<PointState>&
 }
 
 /// Clusters from roots: numbered by size, the one with the first point first where sizes are equal.
-void number_clusters(Forest& forest, Clusters& c) {
+void number_clusters(DisjointSets& joined, Clusters& c) {
   std::vector<std::size_t> size(c.points.size(), 0);
-  for (std::uint32_t i = 0; i < c.points.size(); ++i) ++size[forest.root(i)];
+  for (std::uint32_t i = 0; i < c.points.size(); ++i) ++size[joined.root(i)];
   std::vector<std::uint32_t> roots;
   for (std::uint32_t i = 0; i < size.size(); ++i)
     if (size[i] > 0) roots.push_back(i);
@@ -55,7 +37,7 @@ void number_clusters(Forest& forest, Clusters& c) {
     number[roots[n]] = n;
     c.sizes.push_back(size[roots[n]]);
   }
-  for (std::uint32_t i = 0; i < c.points.size(); ++i) c.cluster.push_back(number[forest.root(i)]);
+  for (std::uint32_t i = 0; i < c.points.size(); ++i) c.cluster.push_back(number[joined.root(i)]);
 }
 
 }  // namespace
@@ -64,17 +46,17 @@ Clusters find_clusters(const Simulation& simulation, double reach) {
   Clusters c;
   simulation.visit_points([&](const PointState& p) { c.points.push_back(p); });
   const auto bins = binned(c.points, reach);
-  Forest forest(c.points.size());
+  DisjointSets joined(c.points.size());
   for (const auto& [cell, here] : bins) {
     for (int n = 0; n < 27; ++n) {
       const auto there = bins.find({cell[0] + n / 9 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n % 3 - 1});
       if (there == bins.end() || there->first < cell) continue;
       for (const std::uint32_t i : here)
         for (const std::uint32_t j : there->second)
-          if ((c.points[i].position - c.points[j].position).squaredNorm() <= reach * reach) forest.join(i, j);
+          if ((c.points[i].position - c.points[j].position).squaredNorm() <= reach * reach) joined.join(i, j);
     }
   }
-  number_clusters(forest, c);
+  number_clusters(joined, c);
   return c;
 }
 

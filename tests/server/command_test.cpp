@@ -132,6 +132,10 @@ TEST_F(SceneCommand, SheetShowsFramesOfARunFromFirstToLast) {
   EXPECT_GT(image.height, 60);
   EXPECT_EQ(run(command + " --width 161"), 2);
   EXPECT_NE(said().find("1 to 160"), std::string::npos) << said();
+  std::string many = command;
+  for (int i = 0; i < 200; ++i) many += " " + out().string();
+  EXPECT_EQ(run(many + " --pictures 1 --width 160"), 2);
+  EXPECT_NE(said().find("16384 px a side"), std::string::npos) << said();
   EXPECT_EQ(run("sheet " + (directory_.path() / "none").string() + " --out " + sheet.string()), 2);
   EXPECT_NE(said().find("There are no pictures"), std::string::npos) << said();
 }

@@ -15,4 +15,8 @@ std::string ball_scene();
 Report run(const std::string& scene_json, const std::vector<Override>& overrides, int threads = 1,
            KernelLevel level = best_kernel_level());
 
+/// Checkpoints of the states after each of the first `count` steps from frame `frame` on; a run that is
+/// restored from any of them must have a last frame that is bit-equal to that of the run that went on.
+void expect_bit_equal_after_restore(const Plan& plan, int frame, int count);
+
 }  // namespace lather::testing_support

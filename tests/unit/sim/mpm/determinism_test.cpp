@@ -83,51 +83,15 @@ TEST_P(Determinism, WithEverythingOnItIsBitEqualForAnyNumberOfThreads) {
     EXPECT_EQ(many.probes[p].values, one.probes[p].values) << one.probes[p].name;
 }
 
+// Some of the checkpoints are made right after a resampling or a release, before the next sort.
 TEST_P(Determinism, WithEverythingOnARestoredRunGoesOnBitEqual) {
-  const Plan plan = make_plan(parse_scene(busy_scene("float"), "", with_everything_on()), {GetParam()});
-  const auto go_on = [](const Progress&) { return true; };
-  const auto whole = Simulation::create(plan, 2);
-  for (int i = 0; i <= 2; ++i) whole->step_to_frame(i, go_on);
-  std::vector<std::string> saved;  // some right after a resampling or a release, before the next sort
-  for (int stop = 0; stop < 8; ++stop) {
-    whole->step_to_frame(3, [](const Progress&) { return false; });
-    saved.push_back(whole->save());
-  }
-  whole->step_to_frame(3, go_on);
-  whole->step_to_frame(4, go_on);
-  for (const std::string& bytes : saved) {
-    const auto resumed = Simulation::create(plan, 1);
-    resumed->restore(bytes);
-    resumed->step_to_frame(3, go_on);
-    resumed->step_to_frame(4, go_on);
-    const FrameMeasure& got = resumed->report().frames.back();
-    const FrameMeasure& expected = whole->report().frames.back();
-    EXPECT_EQ(got.fingerprint, expected.fingerprint);
-    EXPECT_EQ(got.points_inserted, expected.points_inserted);
-    EXPECT_EQ(got.mass_removed, expected.mass_removed);
-    EXPECT_EQ(got.skin_volume, expected.skin_volume);
-    for (std::size_t p = 0; p < whole->report().probes.size(); ++p)
-      EXPECT_EQ(resumed->report().probes[p].values, whole->report().probes[p].values);
-  }
+  testing_support::expect_bit_equal_after_restore(
+      make_plan(parse_scene(busy_scene("float"), "", with_everything_on()), {GetParam()}), 2, 8);
 }
 
 TEST_P(Determinism, ARestoredRunGoesOnBitEqual) {
-  const Scene scene = parse_scene(busy_scene("float"));
-  const Plan plan = make_plan(scene, {GetParam()});
-  const auto go_on = [](const Progress&) { return true; };
-  const auto whole = Simulation::create(plan, 2);
-  for (int i = 0; i <= 2; ++i) whole->step_to_frame(i, go_on);
-  // Stop between two frames, in the middle of things.
-  int left = 5;
-  EXPECT_FALSE(whole->step_to_frame(3, [&](const Progress&) { return --left > 0; }));
-  const std::string saved = whole->save();
-  whole->step_to_frame(4, go_on);
-
-  const auto resumed = Simulation::create(plan, 1);
-  resumed->restore(saved);
-  resumed->step_to_frame(4, go_on);
-  EXPECT_EQ(resumed->report().frames.back().fingerprint, whole->report().frames.back().fingerprint);
-  EXPECT_EQ(resumed->report().steps, whole->report().steps);
+  testing_support::expect_bit_equal_after_restore(make_plan(parse_scene(busy_scene("float")), {GetParam()}),
+                                                  2, 5);
 }
 
 TEST_P(Determinism, DamagedOrForeignCheckpointsAreRefused) {

@@ -267,6 +267,15 @@ TEST(SceneErrors, OfProbesSayWhatIsAllowed) {
   }
 }
 
+TEST(SceneErrors, ForceProbesAreRefusedWhereStepsAreSemiImplicit) {
+  const std::string probed =
+      with("/probes", R"([{"type": "point", "name": "p", "at": [0, 0, 0]}, {"type": "walls", "name": "w"}])");
+  EXPECT_TRUE(problems_of(probed).empty());
+  const auto problems = problems_of(probed, "", {{"/numerics/integration", "semi-implicit"}});
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].pointer, "/probes/1/type");
+}
+
 TEST(SceneErrors, ASceneNeedsBodiesOrEmitters) {
   const auto problems = problems_of(with("/bodies", "null"));
   ASSERT_EQ(problems.size(), 1U);

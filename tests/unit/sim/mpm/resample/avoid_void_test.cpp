@@ -96,6 +96,41 @@ TEST_P(AvoidVoid, NewPointsKeepOutOfAllSpheresAndAwayFromTheSurface) {
   }
 }
 
+// "b" tears and holds F, "a" before it does not: new and merged points take the values of their own list.
+TEST_P(AvoidVoid, PointsOfAMaterialWithMoreFieldsTakeAllOfThem) {
+  Foam foam = Foam::with_untearing_a(GetParam());
+  ASSERT_FALSE(foam.sets[0].layout().has(Field::kDeformation));
+  const auto ball_with_hole = [](const Vec3& x) {
+    return in_ball(x) && !(std::abs(x.y() - 0.5) < 0.1 && std::abs(x.z()) < 0.6 && std::abs(x.x()) < 6);
+  };
+  const auto beside = [](const Vec3& x) { return std::abs(x.x()) > 20 && std::abs(x.y()) < 2; };
+  foam.fill(Vec3::Constant(0.5), ball_with_hole, 1);
+  foam.fill(Vec3::Constant(0.5), beside, 0);
+  foam.add({8.51, 0.5, GetParam() == 3 ? 0.5 : 0}, 1);  // merges with the lattice's point
+  const Vec3 v(3, -2, GetParam() == 3 ? 1 : 0);
+  ParticleSet<double>& b = foam.sets[1];
+  const auto for_b = [&](const auto& visit) {
+    for (std::size_t t = 0; t < b.tiles(); ++t)
+      for (int lane = 0; lane < kTile; ++lane)
+        if (b.values<std::uint32_t>(t, Field::kId)[lane] != kNoPoint) visit(t, lane);
+  };
+  for_b([&](std::size_t t, int lane) {
+    for (int a = 0; a < GetParam(); ++a) b.values<double>(t, Field::kVelocity, a)[lane] = v[a];
+    b.values<double>(t, Field::kVolumeChange)[lane] = 0.25;
+    b.values<double>(t, Field::kAffine, 1)[lane] = 0.75;
+    b.values<double>(t, Field::kDeformation, 0)[lane] = 0.25;  // F = diag(1.25, 1, 1), det F = J
+  });
+  const Outcome done = foam.avoid_void(1);
+  ASSERT_GT(done.inserted, 5U);
+  ASSERT_EQ(done.merged, 1U);
+  for_b([&](std::size_t t, int lane) {
+    EXPECT_LT((b.velocity(t, lane) - v).norm(), 1e-12);
+    EXPECT_NEAR(b.values<double>(t, Field::kVolumeChange)[lane], 0.25, 1e-12);
+    EXPECT_NEAR(b.values<double>(t, Field::kAffine, 1)[lane], 0.75, 1e-12);
+    EXPECT_NEAR(b.values<double>(t, Field::kDeformation, 0)[lane], 0.25, 1e-12);
+  });
+}
+
 TEST(AvoidVoidIn3D, ObstaclesInsidesGetNoPoint) {
   Foam foam(3);
   foam.fill(Vec3::Constant(0.5), [](const Vec3& x) {

@@ -5,21 +5,27 @@
 namespace lather::testing_support {
 namespace {
 
-Plan plan_of(int dimension, bool periodic) {
+Plan plan_of(int dimension, bool periodic, const char* tear_threshold_of_a) {
   return make_plan(parse_scene(
       R"({"lather": 1, "domain": {"min": [-24, -24, -24], "max": [24, 24, 24], "periodic": [true, false, false]},
     "duration": 1, "spacing": 2, "gravity": [0, 0, 0],
     "materials": [{"name": "a", "preset": "shaving-cream"}, {"name": "b", "preset": "oobleck"}],
     "bodies": [{"name": "a", "material": "a", "shape": {"type": "sphere", "radius": 3}}],
     "numerics": {"precision": "double", "transfer": "apic", "resampling": {}}})",
-      "", {{"/dimension", std::to_string(dimension)}, {"/domain/periodic/0", periodic ? "true" : "false"}}));
+      "",
+      {{"/dimension", std::to_string(dimension)},
+       {"/domain/periodic/0", periodic ? "true" : "false"},
+       {"/materials/0/tear_threshold", tear_threshold_of_a},
+       {"/materials/1/tear_threshold", "1"}}));
 }
 
 }  // namespace
 
-Foam::Foam(int dimension, bool periodic)
+Foam::Foam(int dimension, bool periodic) : Foam(dimension, periodic, "217.5") {}
+
+Foam::Foam(int dimension, bool periodic, const char* tear_threshold_of_a)
     : dimension_(dimension),
-      model_(std::make_unique<mpm::Model<double>>(plan_of(dimension, periodic))),
+      model_(std::make_unique<mpm::Model<double>>(plan_of(dimension, periodic, tear_threshold_of_a))),
       grid_(dimension, true) {
   const Scene& scene = model_->scene;
   for (int s = 0; s < 2; ++s)

@@ -14,6 +14,8 @@ namespace lather::testing_support {
 class Foam {
  public:
   explicit Foam(int dimension, bool periodic = false);
+  /// Material "a" does not tear, so that its points hold fewer fields than those of "b".
+  static Foam with_untearing_a(int dimension) { return Foam(dimension, false, "\"infinity\""); }
 
   /// Adds a point, id by id from 0.
   void add(const Vec3& x, std::size_t set = 0, const Vec3& v = Vec3::Zero());
@@ -44,6 +46,7 @@ class Foam {
   std::uint32_t next_id = 0;
 
  private:
+  Foam(int dimension, bool periodic, const char* tear_threshold_of_a);
   void sort();
 
   int dimension_;

@@ -71,31 +71,10 @@ TEST(ResampledRun, IsBitEqualForAnyNumberOfThreads) {
   }
 }
 
+// A resampling comes every ten steps or so: some checkpoints are made right after one, before the next sort.
 TEST(ResampledRun, GoesOnBitEqualFromACheckpointBetweenTwoResamplings) {
-  const Scene scene = parse_scene(pressed_column(2), "", {{"/duration", "0.025"}, {"/jitter", "0.5"}});
-  const Plan plan = make_plan(scene);
-  const auto go_on = [](const Progress&) { return true; };
-  const auto whole = Simulation::create(plan, 2);
-  for (int i = 0; i <= 3; ++i) whole->step_to_frame(i, go_on);
-  // A resampling comes every ten steps or so: some checkpoints are made right after one, before the next
-  // sort.
-  std::vector<std::string> saved;
-  for (int stop = 0; stop < 12; ++stop) {
-    whole->step_to_frame(4, [](const Progress&) { return false; });
-    saved.push_back(whole->save());
-  }
-  whole->step_to_frame(4, go_on);
-  whole->step_to_frame(5, go_on);
-  for (const std::string& bytes : saved) {
-    const auto resumed = Simulation::create(plan, 1);
-    resumed->restore(bytes);
-    resumed->step_to_frame(4, go_on);
-    resumed->step_to_frame(5, go_on);
-    const FrameMeasure& got = resumed->report().frames.back();
-    EXPECT_EQ(got.fingerprint, whole->report().frames.back().fingerprint);
-    EXPECT_EQ(got.points_inserted, whole->report().frames.back().points_inserted);
-    EXPECT_EQ(got.resampling_momentum, whole->report().frames.back().resampling_momentum);
-  }
+  testing_support::expect_bit_equal_after_restore(
+      make_plan(parse_scene(pressed_column(2), "", {{"/duration", "0.025"}, {"/jitter", "0.5"}})), 3, 12);
 }
 
 TEST(ResampledRun, KeepsIdsUniqueAndNeverUsesOneAgain) {
