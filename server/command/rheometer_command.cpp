@@ -8,6 +8,7 @@
 #include "server/command/commands.h"
 #include "server/command/scene_source.h"
 #include "sim/scene/material_cards.h"
+#include "sim/scene/models.h"
 #include "sim/scene/read_material.h"
 #include "sim/study/flow_models.h"
 #include "sim/study/rheometer.h"
@@ -25,7 +26,11 @@ Material read_material(const std::string& source) {
   const bool looks_like_file = source.find_first_of("./") != std::string::npos;
   const bool file =
       looks_like_file || (find_material_card(source) == nullptr && std::filesystem::exists(source));
-  return file ? parse_material(read_text(source)) : material_from_card(source);
+  Material material = file ? parse_material(read_text(source)) : material_from_card(source);
+  if (!std::holds_alternative<HerschelBulkleyParameters>(material.law))
+    throw InputError({{"/model", tables::model_of(material.law).name, "\"herschel-bulkley\"",
+                       "The rheometer shears materials of the model \"herschel-bulkley\" only."}});
+  return material;
 }
 
 template <class List, class Access>
@@ -36,7 +41,7 @@ std::vector<double> column(const List& list, const Access& access) {
 }
 
 void print_parameters(const Material& material) {
-  const HerschelBulkleyParameters& law = material.herschel_bulkley;
+  const HerschelBulkleyParameters& law = material.herschel_bulkley();
   const study::PowerLaw power = study::power_law(law);
   std::printf("%s: shear modulus %.6g Pa, yield stress %.6g Pa, viscosity %.6g Pa s^h, flow index %.6g\n",
               material.name.c_str(), law.shear_modulus, law.yield_stress, law.viscosity, law.flow_index);
@@ -100,7 +105,7 @@ render::Chart chart_of(const Material& material, const StartUp& curve) {
 
 render::Chart flow_chart(const Material& material, const std::vector<SteadyFlow>& curve,
                          const std::optional<study::PowerLaw>& measured) {
-  const study::PowerLaw power = study::power_law(material.herschel_bulkley);
+  const study::PowerLaw power = study::power_law(material.herschel_bulkley());
   const std::vector<double> rates = column(curve, [](const SteadyFlow& f) { return f.rate; });
   render::Chart chart;
   chart.title = material.name + ": steady simple shear";
@@ -120,7 +125,7 @@ render::Chart flow_chart(const Material& material, const std::vector<SteadyFlow>
 
 /// [Foam Fig. 5]
 render::Chart viscosity_chart(const Material& material, const std::vector<SteadyFlow>& curve) {
-  const study::ViscosityComparison v = study::compare_viscosities(material.herschel_bulkley, curve);
+  const study::ViscosityComparison v = study::compare_viscosities(material.herschel_bulkley(), curve);
   const std::vector<double> s = column(curve, [](const SteadyFlow& f) { return f.stress.s; });
   render::Chart chart;
   chart.title = material.name + ": effective viscosity";
@@ -154,7 +159,7 @@ void check(const RheometerOptions& o) {
 }
 
 int steady_flow(const RheometerOptions& options, const Material& material) {
-  const HerschelBulkleyParameters& law = material.herschel_bulkley;
+  const HerschelBulkleyParameters& law = material.herschel_bulkley();
   std::optional<study::PowerLaw> measured;
   if (!options.measured.empty()) measured = study::read_power_law(options.measured);
   const std::vector<SteadyFlow> curve = study::flow_curve(law, study::read_rate_range(options.rates));
@@ -171,7 +176,7 @@ int steady_flow(const RheometerOptions& options, const Material& material) {
 }
 
 int start_up(const RheometerOptions& options, const Material& material) {
-  const HerschelBulkleyParameters& law = material.herschel_bulkley;
+  const HerschelBulkleyParameters& law = material.herschel_bulkley();
   const study::StartUpRequest request = {options.rate, options.time, options.steps};
   const StartUp curve =
       options.box ? study::start_up_in_box(law, request, options.threads) : study::start_up(law, request);

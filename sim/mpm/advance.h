@@ -6,29 +6,6 @@
 
 namespace lather::LATHER_LEVEL {
 
-/// x += dt v on one axis of a tile, in fixed point [Foam E.3 step 14, Algorithm 17].
-///
-/// The displacement is rounded to quanta as floor(d + phase) with the same phase for all points of a step,
-/// the phases of successive steps being equidistributed (multiples of the golden ratio). So even a point that
-/// moves a fraction of a quantum per step travels as far as it should, within a quantum or two for good; a
-/// point at rest stays; a rigid translation stays rigid. `cells` must lie in [-1, 1].
-template <class Real, int Dim>
-inline void move(const Tile<Real, Dim>& tile, int axis, const Real* cells, Real phase) {
-  using Word = typename FixedPoint<Real>::Word;
-  constexpr int bits = FixedPoint<Real>::kBits;
-  constexpr Real kQuanta = Real(std::int64_t{1} << bits);
-  Word* fraction = tile.template field<Word>(Field::kFraction, axis);
-  auto* cell = tile.template field<std::int16_t>(Field::kCell, axis);
-  for (int k = 0; k < kLanes; ++k) {
-    const Real d = cells[k] * kQuanta + phase;
-    Word quanta = static_cast<Word>(d);
-    quanta -= static_cast<Real>(quanta) > d ? 1 : 0;  // floor
-    const Word sum = fraction[k] + quanta;
-    cell[k] = static_cast<std::int16_t>(cell[k] + (sum >> bits));
-    fraction[k] = sum & ((Word{1} << bits) - 1);
-  }
-}
-
 template <class Real, int Dim>
 mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::StepConstants<Real>& step) {
   const Real to_cells = step.dt / step.cell;

@@ -122,15 +122,7 @@ inline void update_deformation(const Tile<Real, Dim>& tile, const Gathered<Real,
   }
   HerschelBulkleyState<Lane<Real>> state = predict_elastic(load_state(tile), A);
   const Lane<Real> plastic_strain = correct_plastic(state, material.law, step.dt);
-  tile.put(Field::kVolumeChange, 0, state.volume_change);
-  tile.put(Field::kElasticStrain, 0, state.strain.xx);
-  tile.put(Field::kElasticStrain, 1, state.strain.yy);
-  tile.put(Field::kElasticStrain, 2, state.strain.zz);
-  tile.put(Field::kElasticStrain, 3, state.strain.xy);
-  if constexpr (Dim == 3) {
-    tile.put(Field::kElasticStrain, 4, state.strain.xz);
-    tile.put(Field::kElasticStrain, 5, state.strain.yz);
-  }
+  store_state(tile, state);
   if (tile.has(Field::kPlasticStrain))
     tile.put(Field::kPlasticStrain, 0, tile.lane(Field::kPlasticStrain) + plastic_strain);
 }

@@ -1,27 +1,12 @@
-#include <cmath>
-
 #include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/step.h"
 
 namespace lather::mpm {
 namespace {
 
-CellBounds cell_bounds(const Scene& scene) {
-  CellBounds b;
-  b.dimension = scene.dimension;
-  b.periodic = scene.domain.periodic;
-  b.open = scene.domain.boundary == Boundary::kOpen;
-  const Vec3 extent = scene.domain.box.extent();
-  for (int a = 0; a < scene.dimension; ++a)
-    b.cells[static_cast<std::size_t>(a)] =
-        static_cast<std::int32_t>(std::ceil(extent[a] / scene.spacing - 1e-6));
-  for (int a = scene.dimension; a < 3; ++a) b.periodic[static_cast<std::size_t>(a)] = false;
-  return b;
-}
-
 template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
-  const HerschelBulkleyParameters& law = material.herschel_bulkley;
+  const HerschelBulkleyParameters& law = material.herschel_bulkley();
   const double volume = scene.point_volume();
   return {static_cast<Real>(law.density * volume),
           static_cast<Real>(volume),
@@ -40,7 +25,7 @@ resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds) {
     return weights(cubic, fraction, weight, derivative);
   };
   for (const Material& m : plan.scene.materials) {
-    r.mass.push_back(m.herschel_bulkley.density * plan.scene.point_volume());
+    r.mass.push_back(m.density() * plan.scene.point_volume());
     r.tears.tear_threshold.push_back(m.tearing.tear_threshold);
   }
   r.tears.plasticity = point.tearing.plasticity;

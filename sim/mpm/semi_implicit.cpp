@@ -232,7 +232,7 @@ double VelocitySolver<Real>::Run::start() const {
   const double stiff = static_cast<double>(step.dt / step.cell);
   double fastest = 0;
   for (const Material& m : s.model_.scene.materials)
-    fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+    fastest = std::max(fastest, wave_speed(m.herschel_bulkley()));
   const double rounding = 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                           (1 + 4 * stiff * stiff * fastest * fastest);
   return rounding * rounding * energy;

@@ -1,37 +1,30 @@
 #include "sim/mpm/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
+#include "sim/frame_loop.h"
 #include "sim/mpm/checkpoint.h"
 #include "sim/mpm/density.h"
 #include "sim/mpm/levels.h"
 #include "sim/mpm/point_states.h"
 #include "sim/mpm/probes.h"
-#include "sim/mpm/snapshot.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
 #include "sim/plan/step_bound.h"
 #include "sim/report/measure.h"
 #include "sim/report/pieces.h"
+#include "sim/snapshot.h"
 #include "sim/surface/skin.h"
 
 namespace lather::mpm {
 namespace {
 
-std::string with_unit(double value, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.4g%s%s", value, *unit != 0 ? " " : "", unit);
-  return text;
-}
-
 template <class Real>
-class MpmSimulation final : public Simulation {
+class MpmSimulation final : public FrameLoop {
  public:
   MpmSimulation(const Plan& plan, int threads)
-      : plan_(plan), threads_(threads), model_(plan), stepper_(model_, threads), snapshot_(plan.scene) {
+      : FrameLoop(plan, threads), model_(plan), stepper_(model_, threads), snapshot_(plan.scene) {
     const Scene& scene = plan.scene;
     for (const Material& m : scene.materials)
       state_.sets.emplace_back(scene.dimension, planned_fields(scene, m), scene.domain.box.min,
@@ -47,37 +40,15 @@ class MpmSimulation final : public Simulation {
     state_.left.resize(scene.materials.size());
     state_.probes = first_probe_states(scene);
     report_.probes = empty_probe_series(scene);
-    report_.scene_name = scene.name;
-    report_.scene_hash = scene_hash(scene);
-    report_.version = version();
-    report_.kernel_level = to_string(plan.choices.kernel_level);
-    report_.threads = threads;
-    measure(0);
+    record(0);
     sample_probes(state_, model_, threads_, report_.probes);
   }
 
-  bool step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) override {
-    if (index <= measured_frame_) return true;
-    const double target = index / plan_.scene.frame_rate;
-    while (state_.time < target) {
-      stepper_.emit(state_);
-      const double left = target - state_.time;
-      const double steps = steps_for(left, step_limit());
-      step(left / steps);
-      if (steps == 1) state_.time = target;
-      sample_probes(state_, model_, threads_, report_.probes);
-      if (!heartbeat({index, state_.time, last_step_, state_.step})) return false;
-    }
-    measure(index);
-    return true;
-  }
-
   [[nodiscard]] Frame frame() const override {
-    Frame frame = snapshot_.take(state_, plan_, measured_frame_);
+    Frame frame = snapshot_.take(state_.sets, state_.time, plan_, measured_frame_);
     if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
     return frame;
   }
-  [[nodiscard]] const Report& report() const override { return report_; }
   void visit_points(const std::function<void(const PointState&)>& visit) const override {
     visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
   }
@@ -92,12 +63,14 @@ class MpmSimulation final : public Simulation {
   }
 
  private:
-  [[nodiscard]] std::string checkpoint_key() const {
-    return report_.scene_hash + ' ' + report_.kernel_level + ' ' + report_.version;
-  }
+  [[nodiscard]] Moment moment() const override { return {state_.time, state_.step}; }
+  void set_time(double time) override { state_.time = time; }
+  void before_step() override { stepper_.emit(state_); }
+  void after_step() override { sample_probes(state_, model_, threads_, report_.probes); }
+  [[nodiscard]] const StageClock& clock() const override { return stepper_.clock(); }
 
   /// The step of this moment: the planned one, shorter while points are fast.
-  [[nodiscard]] double step_limit() const {
+  [[nodiscard]] double step_limit() const override {
     const Scene& s = plan_.scene;
     const double planned = planned_step(s);
     if (s.numerics.time_step > 0 || state_.max_speed == 0) return planned;
@@ -105,53 +78,16 @@ class MpmSimulation final : public Simulation {
     return std::min(planned, kMostCells * s.spacing / state_.max_speed);
   }
 
-  void step(double dt) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t points = point_count();
-    const double time = state_.time;
-    const std::uint64_t step = state_.step;
+  StepExtremes take_step(double dt) override {
     const StepResult seen = stepper_.step(state_, dt);
-    check(seen, step, time, dt);
-    last_step_ = dt;
     if (plan_.scene.numerics.integration == Integration::kSemiImplicit) count_solve(seen.solve);
-    report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
-    report_.largest_time_step = std::max(report_.largest_time_step, dt);
-    report_.largest_cfl = std::max(report_.largest_cfl, seen.largest_cells);
-    report_.steps = state_.step;
-    report_.point_steps += points;
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    report_.wall_seconds += took.count();
+    return seen.extremes;
   }
 
-  /// Throws when the state is no longer sound.
-  void check(const StepResult& seen, std::uint64_t step, double time, double dt) const {
-    SimulationError::Details d;
-    d.step = static_cast<long long>(step);
-    d.time = time;
-    if (!seen.finite) {
-      d.kind = "non-finite";
-      d.quantity = "a point's velocity, J, elastic strain or deformation";
-      d.value = "not a finite number";
-    } else if (seen.collapsed) {
-      d.kind = "runaway";
-      d.quantity = "a point's volume ratio J";
-      d.value = "zero or negative";
-    } else if (seen.largest_cells > 1) {
-      d.kind = "runaway";
-      d.quantity = "a point's speed";
-      d.value =
-          with_unit(seen.max_speed, "m/s") + " (" + with_unit(seen.largest_cells, "cells in one step") + ")";
-    } else {
-      return;
-    }
+  [[nodiscard]] std::string advice(double dt) const override {
     const Numerics& n = plan_.scene.numerics;
-    d.advice =
-        n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") + "; the step bound is " +
-                              with_unit(plan_.step_bound, "s") + "."
-        : n.integration == Integration::kSemiImplicit
-            ? "Lower /numerics/implicit_step_factor from " + with_unit(n.implicit_step_factor, "") + "."
-            : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
-    throw SimulationError(d);
+    if (n.time_step > 0 || n.integration == Integration::kExplicit) return FrameLoop::advice(dt);
+    return "Lower /numerics/implicit_step_factor from " + with_unit(n.implicit_step_factor, "") + ".";
   }
 
   /// A run whose solver stops early goes on: what is left of the residual acts like a small force, and
@@ -176,7 +112,7 @@ class MpmSimulation final : public Simulation {
   /// What came in and went out since the start.
   void report_flows(FrameMeasure& m) {
     for (std::size_t s = 0; s < state_.sets.size(); ++s) {
-      const double mass = model_.scene.materials[s].herschel_bulkley.density * model_.scene.point_volume();
+      const double mass = model_.scene.materials[s].density() * model_.scene.point_volume();
       m.points_emitted += state_.points_emitted[s];
       m.mass_emitted += mass * static_cast<double>(state_.points_emitted[s]);
       m.points_left += state_.left[s].points;
@@ -195,13 +131,13 @@ class MpmSimulation final : public Simulation {
     }
   }
 
-  [[nodiscard]] std::uint64_t point_count() const {
+  [[nodiscard]] std::uint64_t point_count() const override {
     std::uint64_t n = 0;
     for (const auto& set : state_.sets) n += set.size();
     return n;
   }
 
-  void measure(int index) {
+  FrameMeasure measure_state(int index) override {
     stepper_.sort_when_drifted(state_);
     stepper_.detect_tearing(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
@@ -210,43 +146,30 @@ class MpmSimulation final : public Simulation {
     m.pieces = pieces.count;
     m.largest_piece_share = pieces.largest_share;
     m.second_piece_share = pieces.second_share;
-    m.frame = index;
-    m.time = state_.time;
-    m.step = state_.step;
     if (const auto voids = stepper_.interior_voids(state_))
       m.interior_voids = static_cast<std::int64_t>(*voids);
     report_flows(m);
     if (plan_.scene.wants_skin()) measure_skin(index, m);
-    report_.frames.push_back(m);
-    measured_frame_ = index;
-    report_.simulated_time = state_.time;
-    report_.warnings = plan_.warnings;
-    if (report_.solver.unconverged > 0) report_.warnings.push_back(unconverged_warning());
-    if (report_.wall_seconds > 0)
-      report_.point_steps_per_second = static_cast<double>(report_.point_steps) / report_.wall_seconds;
-    report_.stages.clear();
-    for (const std::string& name : plan_.stages)
-      for (int s = 0; s < kStageCount; ++s)
-        if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
-          report_.stages.push_back({name, stepper_.clock().seconds(static_cast<Stage>(s))});
+    return m;
+  }
+
+  [[nodiscard]] std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = plan_.warnings;
+    if (report_.solver.unconverged > 0) all.push_back(unconverged_warning());
+    return all;
   }
 
   void measure_skin(int index, FrameMeasure& m) {
-    skins_ = skins_of(snapshot_.take(state_, plan_, index), threads_);
+    skins_ = skins_of(snapshot_.take(state_.sets, state_.time, plan_, index), threads_);
     m.skin_volume = 0;
     for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
   }
 
-  Plan plan_;
-  int threads_;
   Model<Real> model_;
   State<Real> state_;
   Stepper<Real> stepper_;
   Snapshot snapshot_;
-  Report report_;
   std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
-  int measured_frame_ = -1;
-  double last_step_ = 0;
 };
 
 }  // namespace

@@ -38,11 +38,10 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
     rasterize(state, constants, model_.materials);  // 1, 3, 4
     update_grid(constants);                         // 5, 6
   }
-  StepResult result = update_particles(state, constants);  // 7 to 11, 13, 14
+  const StepExtremes seen = update_particles(state, constants);  // 7 to 11, 13, 14
   tally_.end_step(state.time, state.probes);
-  result.solve = solve;
-  state.drift += result.largest_cells;
-  state.max_speed = result.max_speed;
+  state.drift += seen.largest_cells;
+  state.max_speed = seen.max_speed;
   state.time += dt;
   ++state.step;
   const auto due = [&](const auto& activity) {
@@ -50,7 +49,7 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   };
   if (due(model_.scene.numerics.subgrid_removal)) remove_subgrid(state);  // 12
   if (due(model_.scene.numerics.resampling)) avoid_void(state);           // 15
-  return result;
+  return {seen, solve};
 }
 
 template <class Real>
@@ -112,8 +111,7 @@ StepConstants<Real> Stepper<Real>::constants(const State<Real>& state, double dt
   c.cell = static_cast<Real>(s.spacing);
   for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<Real>(s.gravity[a]);
   c.flip = static_cast<Real>(flip_share(s.numerics, dt));
-  // Multiples of the golden ratio modulo 1, to 20 bits so that a float holds them below 1 (see move()).
-  c.phase = static_cast<Real>(static_cast<double>((state.step + 1) * 0x9e3779b97f4a7c15U >> 44U) * 0x1p-20);
+  c.phase = rounding_phase<Real>(state.step);
   return c;
 }
 
@@ -234,7 +232,7 @@ void Stepper<Real>::resolve_grid_collisions(std::size_t block, std::vector<std::
 }
 
 template <class Real>
-StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstants<Real>& step) {
+StepExtremes Stepper<Real>::update_particles(State<Real>& state, const StepConstants<Real>& step) {
   const auto update_block = [&](std::int64_t index) {
     const auto b = static_cast<std::size_t>(index);
     const PointBlock& block = grid_.point_blocks()[b];
@@ -253,7 +251,7 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
       model_.kernels.collect(nodes, velocity);
       if (increments[0] != nullptr) model_.kernels.collect(increments, increment);
     });
-    StepResult seen;
+    StepExtremes seen;
     for (std::size_t s = 0; s < state.sets.size(); ++s) {
       const std::int32_t range = grid_.range_of(s, b);
       if (range < 0) continue;
@@ -278,13 +276,8 @@ StepResult Stepper<Real>::update_particles(State<Real>& state, const StepConstan
     }
     return seen;
   };
-  return parallel_fold(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), StepResult{},
-                       update_block, [](StepResult& sum, const StepResult& part) {
-                         sum.largest_cells = std::max(sum.largest_cells, part.largest_cells);
-                         sum.max_speed = std::max(sum.max_speed, part.max_speed);
-                         sum.finite = sum.finite && part.finite;
-                         sum.collapsed = sum.collapsed || part.collapsed;
-                       });
+  return parallel_fold(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), StepExtremes{},
+                       update_block, [](StepExtremes& sum, const StepExtremes& part) { sum.include(part); });
 }
 
 template <class Real>

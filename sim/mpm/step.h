@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/collide/obstacles.h"
+#include "sim/frame_loop.h"
 #include "sim/mpm/block_grid.h"
 #include "sim/mpm/levels.h"
 #include "sim/mpm/probe_tally.h"
@@ -90,10 +91,7 @@ struct SolveFigures {
 
 /// What a step saw.
 struct StepResult {
-  double largest_cells = 0;  ///< largest |v| dt / h of any point along an axis
-  double max_speed = 0;      ///< m/s
-  bool finite = true;
-  bool collapsed = false;  ///< some J <= 0
+  StepExtremes extremes;
   SolveFigures solve;
 };
 
@@ -146,7 +144,7 @@ class Stepper {
   void grid_velocities(std::size_t block, const StepConstants<Real>& step);
   SolveFigures solve_grid(State<Real>& state, const StepConstants<Real>& step);
   void resolve_grid_collisions(std::size_t block, std::vector<std::uint32_t>& near);
-  StepResult update_particles(State<Real>& state, const StepConstants<Real>& step);
+  StepExtremes update_particles(State<Real>& state, const StepConstants<Real>& step);
   void plan_recovery(State<Real>& state, double dt);
   void resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
                                    const BlockRange& range, std::vector<std::uint32_t>& near);

@@ -1,48 +1,12 @@
 #pragma once
 
-// The deformation gradient of a tile, and the stages of tearing that work on tiles of a material that tears.
+// The stages of tearing that work on tiles of a material that tears.
 // Compiled per kernel level.
 
 #include "sim/material/tearing.h"
 #include "sim/mpm/tile.h"
 
 namespace lather::LATHER_LEVEL {
-
-template <class Real, int Dim>
-inline HerschelBulkleyState<Lane<Real>> load_state(const Tile<Real, Dim>& tile) {
-  const Lane<Real> zero(Real(0));
-  HerschelBulkleyState<Lane<Real>> s;
-  s.volume_change = tile.lane(Field::kVolumeChange);
-  s.strain = {tile.lane(Field::kElasticStrain, 0),
-              tile.lane(Field::kElasticStrain, 1),
-              tile.lane(Field::kElasticStrain, 2),
-              tile.lane(Field::kElasticStrain, 3),
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 4 : 0) : zero,
-              Dim == 3 ? tile.lane(Field::kElasticStrain, Dim == 3 ? 5 : 0) : zero};
-  return s;
-}
-
-/// Calls visit(component, row, column) for the entries of F - I that a tile holds.
-template <int Dim, class Visit>
-inline void for_deformation(const Visit& visit) {
-  for (int a = 0; a < Dim; ++a)
-    for (int b = 0; b < Dim; ++b) visit(a * Dim + b, a, b);
-  if constexpr (Dim == 2) visit(4, 2, 2);
-}
-
-/// G = F - I.
-template <class Real, int Dim>
-inline Mat3<Lane<Real>> load_deformation(const Tile<Real, Dim>& tile) {
-  Mat3<Lane<Real>> G;
-  for (auto& row : G.m)
-    for (Lane<Real>& entry : row) entry = Lane<Real>(Real(0));
-  for_deformation<Dim>([&](int c, int a, int b) { G.m[a][b] = tile.lane(Field::kDeformation, c); });
-  return G;
-}
-template <class Real, int Dim>
-inline void store_deformation(const Tile<Real, Dim>& tile, const Mat3<Lane<Real>>& G) {
-  for_deformation<Dim>([&](int c, int a, int b) { tile.put(Field::kDeformation, c, G.m[a][b]); });
-}
 
 /// Points labelled by detect_tearing(). Only tiles with the field kPlasticity may be asked.
 template <class Real, int Dim>

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "sim/plan/tile_layout.h"
+#include "sim/scene/scene.h"
 
 /// Blocks of 4 cells per axis, by which points are sorted and the grid is allocated.
 namespace lather {
@@ -45,6 +46,8 @@ struct CellBounds {
   std::array<bool, 3> periodic{};       ///< there, points are wrapped
   bool open = false;                    ///< points outside the other faces are removed
 };
+
+[[nodiscard]] CellBounds cell_bounds(const Scene& scene);
 
 /// Which block a point belongs to: block b holds the positions 4b - 1/2 <= x/h < 4b + 7/2, so that a point
 /// may drift half a cell to either side before its cubic stencil leaves the block's buffer (a whole cell with

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "sim/math/determinant.h"
+
 namespace lather {
 
 template <class Real>
@@ -73,6 +75,27 @@ Vec3 ParticleSet<Real>::velocity(std::size_t t, int lane) const {
   Vec3 v = Vec3::Zero();
   for (int a = 0; a < dimension_; ++a) v[a] = static_cast<double>(values<Real>(t, Field::kVelocity, a)[lane]);
   return v;
+}
+
+template <class Real>
+Mat3 ParticleSet<Real>::deformation_change(std::size_t t, int lane) const {
+  Mat3 G = Mat3::Zero();
+  if (!layout_.has(Field::kDeformation)) return G;
+  const auto at = [&](int c) { return static_cast<double>(values<Real>(t, Field::kDeformation, c)[lane]); };
+  const int d = dimension_;
+  for (int a = 0; a < d; ++a)
+    for (int b = 0; b < d; ++b) G(a, b) = at(d * a + b);
+  if (d == 2) G(2, 2) = at(4);
+  return G;
+}
+
+template <class Real>
+double ParticleSet<Real>::volume_change(std::size_t t, int lane) const {
+  if (layout_.has(Field::kVolumeChange))
+    return static_cast<double>(values<Real>(t, Field::kVolumeChange)[lane]);
+  const double elastic = determinant_change(deformation_change(t, lane));
+  const double plastic = plastic_volume_change(t, lane);
+  return elastic + plastic + elastic * plastic;
 }
 
 template <class Real>

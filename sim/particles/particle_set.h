@@ -47,6 +47,10 @@ class ParticleSet {
   /// number of threads. Returns what was dropped.
   Departures sort(const CellBounds& bounds, int threads);
 
+  /// After sort(): puts the points of each block in the order of groups of 2 x 2 x 4 cells (2 x 2 in 2D), one
+  /// group next to the one before, so that a tile's points lie close together. Stable.
+  void order_within_blocks(int threads);
+
   [[nodiscard]] const std::vector<BlockRange>& ranges() const { return ranges_; }
   [[nodiscard]] const TileLayout& layout() const { return layout_; }
   [[nodiscard]] std::size_t tiles() const {
@@ -74,6 +78,17 @@ class ParticleSet {
 
   [[nodiscard]] Vec3 position(std::size_t t, int lane) const;  ///< m; periodic axes wrapped when last sorted
   [[nodiscard]] Vec3 velocity(std::size_t t, int lane) const;  ///< m/s
+  /// J - 1. Where kVolumeChange is not planned, from kDeformation and, as J = J_e J_p, kPlasticVolume; 0
+  /// without these.
+  [[nodiscard]] double volume_change(std::size_t t, int lane) const;
+  /// kDeformation: F - I, or F_e - I; in 2D with its zz, and 0 across. 0 where it is not planned.
+  [[nodiscard]] Mat3 deformation_change(std::size_t t, int lane) const;
+  /// kPlasticVolume: J_p - 1; 0 where it is not planned.
+  [[nodiscard]] double plastic_volume_change(std::size_t t, int lane) const {
+    return layout_.has(Field::kPlasticVolume)
+               ? static_cast<double>(values<Real>(t, Field::kPlasticVolume)[lane])
+               : 0.0;
+  }
   /// Mass and volume of a point over those of a point as it was sampled; 1 where shares are not planned.
   [[nodiscard]] double share(std::size_t t, int lane) const {
     return layout_.has(Field::kShare) ? static_cast<double>(values<Real>(t, Field::kShare)[lane]) : 1.0;
@@ -89,6 +104,7 @@ class ParticleSet {
   };
   struct Chunk;
 
+  [[nodiscard]] int group_of(std::size_t t, int lane, const BlockCoord& block) const;
   std::uint64_t key_of(std::size_t t, int lane, const CellBounds& bounds);
   void copy_point(std::byte* to_tile, int to_lane, const std::byte* from_tile, int from_lane) const;
   void fill_empty_lanes(std::size_t range);

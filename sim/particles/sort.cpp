@@ -176,6 +176,41 @@ Departures ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
   return left;
 }
 
+/// 0 … 3, around the block: neighbouring numbers are neighbouring groups.
+template <class Real>
+int ParticleSet<Real>::group_of(std::size_t t, int lane, const BlockCoord& block) const {
+  int upper[2];
+  for (int a = 0; a < 2; ++a) {
+    const Word fraction = values<Word>(t, Field::kFraction, a)[lane];
+    const int home = values<std::int16_t>(t, Field::kCell, a)[lane] +
+                     (fraction >> (FixedPoint<Real>::kBits - 1) ? 1 : 0) -
+                     4 * block[static_cast<std::size_t>(a)];
+    upper[a] = home >= 2 ? 1 : 0;
+  }
+  return upper[0] == 0 ? upper[1] : 3 - upper[1];
+}
+
+template <class Real>
+void ParticleSet<Real>::order_within_blocks(int threads) {
+  const auto stride = static_cast<std::size_t>(layout_.stride);
+  parallel_for(threads, static_cast<std::int64_t>(ranges_.size()), 16, [&](std::int64_t r) {
+    const BlockRange& range = ranges_[static_cast<std::size_t>(r)];
+    std::vector<std::pair<int, std::int32_t>> order;
+    for (std::int32_t i = 0; i < range.count; ++i)
+      order.emplace_back(group_of(range.tile_of(i), i % kTile, range.block), i);
+    std::sort(order.begin(), order.end());
+    const std::byte* from = tile(static_cast<std::size_t>(range.first_tile));
+    const std::vector<std::byte> before(
+        from, from + stride * ((static_cast<std::size_t>(range.count) + kTile - 1) / kTile));
+    for (std::int32_t i = 0; i < range.count; ++i) {
+      const auto source = static_cast<std::size_t>(order[static_cast<std::size_t>(i)].second);
+      copy_point(tile(range.tile_of(i)), i % kTile, before.data() + source / kTile * stride,
+                 static_cast<int>(source % kTile));
+    }
+    fill_empty_lanes(static_cast<std::size_t>(r));
+  });
+}
+
 template class ParticleSet<float>;
 template class ParticleSet<double>;
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sim/plan/memory.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
 #include "sim/plan/stages.h"
 #include "sim/plan/step_bound.h"
-#include "sim/plan/void_search.h"
 
 namespace lather {
 namespace {
@@ -24,12 +24,24 @@ TileLayout layout_of(const Scene& scene, const std::vector<Field>& fields) {
                                                        : make_layout<double>(scene.dimension, fields);
 }
 
-std::vector<std::string> planned_stages(const Scene& scene) {
-  std::vector<std::string> stages;
+bool has_contact(const Scene& scene) {
   const bool walls =
       scene.domain.boundary != Boundary::kOpen && !(scene.domain.periodic[0] && scene.domain.periodic[1] &&
                                                     (scene.dimension == 2 || scene.domain.periodic[2]));
-  const bool contact = walls || !scene.obstacles.empty();
+  return walls || !scene.obstacles.empty();
+}
+
+std::vector<std::string> mlsrk_stages(const Scene& scene) {
+  std::vector<std::string> stages;
+  for (const Stage stage : kMlsrkStages)
+    if (stage != Stage::kParticleCollisions || has_contact(scene))
+      stages.emplace_back(kStageNames[static_cast<std::size_t>(stage)]);
+  return stages;
+}
+
+std::vector<std::string> mpm_stages(const Scene& scene) {
+  std::vector<std::string> stages;
+  const bool contact = has_contact(scene);
   const auto any_material = [&](bool (TearingParameters::*property)() const) {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
                        [&](const Material& m) { return (m.tearing.*property)(); });
@@ -37,7 +49,7 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   const bool tears = any_material(&TearingParameters::tears);
   const bool recovers = any_material(&TearingParameters::recovers);
   const bool semi_implicit = scene.numerics.integration == Integration::kSemiImplicit;
-  for (int i = 0; i < kStageCount; ++i) {
+  for (int i = 0; i < kMpmStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (scene.emitters.empty() && stage == Stage::kEmit) continue;
     if (!contact && (stage == Stage::kGridCollisions || stage == Stage::kParticleCollisions)) continue;
@@ -53,52 +65,55 @@ std::vector<std::string> planned_stages(const Scene& scene) {
   return stages;
 }
 
-/// Upper end of what a run takes: points twice (sorting), block buffers and grid, a frame and its neighbour
-/// in the queue.
-std::uint64_t expected_memory(const Plan& plan) {
+/// The material's viscosity at a shear rate of 1/s, Pa s: a flow curve has one of its own only where it is
+/// Newtonian. 0 where the material is no fluid, or has none.
+double own_viscosity(const Material& material) {
+  if (const auto* foam = std::get_if<HerschelBulkleyParameters>(&material.law)) return foam->viscosity;
+  if (const auto* liquid = std::get_if<LiquidParameters>(&material.law)) return liquid->viscous.viscosity;
+  return 0;
+}
+
+void warn_of_numerical_viscosity(Plan& plan, const Material& material, double numerical) {
+  const double own = own_viscosity(material);
+  if (own == 0 || numerical <= own) return;
+  const bool grid = plan.scene.solver == Solver::kMpm;
+  plan.warnings.push_back(
+      "Material \"" + material.name + "\": the " + (grid ? "FLIP/PIC blend" : "blend of velocities") +
+      " adds a viscosity of " + number(numerical, "Pa s") + ", more than the material's own (" +
+      number(own, "Pa s at 1/s") + "); use " +
+      (grid ? "\"transfer\": \"apic\" or a flip_blend closer to 1" : "a velocity_blend closer to 1") +
+      " where flow matters.");
+}
+
+/// Colours by what no material has.
+void warn_of_colours(Plan& plan) {
   const Scene& s = plan.scene;
-  const double real = s.numerics.precision == Precision::kFloat ? 4 : 8;
-  // Resampling adds points: the paper's scenes grow by up to a third.
-  const double points = (s.numerics.resampling ? 1.5 : 1.0) * static_cast<double>(plan.points);
-  double particles = 0;
-  for (const PlannedMaterial& m : plan.materials)
-    particles += static_cast<double>(m.points) * m.bytes_per_point;
-  particles *= points / static_cast<double>(plan.points);
-  const double points_per_block = std::pow(4, s.dimension) * s.points_per_cell;
-  // Half as many blocks again as a full packing needs, and a shell of grid blocks around them.
-  const double blocks = 1.5 * points / points_per_block + 27;
-  const double quads = s.numerics.transfer == Transfer::kApic ? 1 : 2;
-  const double buffers = blocks * quads * 4 * real * (std::pow(8, s.dimension) + 4);
-  const double vectors = s.numerics.integration == Integration::kSemiImplicit ? 4 : 0;  // the solver's
-  const double grid = 3 * blocks * (quads + vectors) * 4 * real * std::pow(4, s.dimension);
-  const double resampling = s.numerics.resampling ? 60 * points : 0;  // the points' bins, distances
-  double cells = 1;
-  for (int a = 0; a < s.dimension; ++a) cells *= s.domain.box.extent()[a] / s.spacing;
-  const double voids = std::min(cells, kMostSearchedCells);
-  const double frame = 3.0 * points * (29 + 4 * static_cast<double>(plan.scalars.size()));
-  // The skin's grid and mesh by its area, at the most that of loose points; files are made one at a time.
-  const double skin = s.wants_skin() ? 600.0 * points : 0;
-  const double files = s.output.particles.empty() ? 0 : 200.0 * points;
-  const double samples =
-      static_cast<double>(s.output.width) * s.output.height * s.output.supersampling * s.output.supersampling;
-  return static_cast<std::uint64_t>(2.2 * particles + buffers + grid + frame + resampling + voids + skin +
-                                    files + samples * 60 + 128e6);
+  const auto none = [&](const auto& has) {
+    return std::none_of(s.materials.begin(), s.materials.end(), has);
+  };
+  const std::string& by = s.look.color_by;
+  const std::string everywhere = "Points are coloured by \"" + by + "\", which is 0 everywhere: no material ";
+  if ((by == "plasticity" || by == "weak") && none([](const Material& m) { return m.tearing.tears(); }))
+    plan.warnings.push_back(everywhere + "has a finite tear_threshold.");
+  if (by == "plastic_strain" &&
+      none([](const Material& m) { return std::holds_alternative<HerschelBulkleyParameters>(m.law); }))
+    plan.warnings.push_back(everywhere + "is of the model \"herschel-bulkley\".");
+}
+
+void warn_of_the_step(Plan& plan) {
+  const Scene& s = plan.scene;
+  if (s.numerics.integration != Integration::kExplicit || s.numerics.time_step <= plan.step_bound) return;
+  const char* limit = s.solver == Solver::kMpm ? "is longer than a pressure wave takes through a cell, "
+                                               : "is longer than waves and viscosity allow, ";
+  plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") + ", " + limit +
+                          number(plan.step_bound, "s") + ": the run will probably end with a runaway state.");
 }
 
 void warn(Plan& plan) {
   const Scene& s = plan.scene;
-  for (PlannedMaterial& m : plan.materials) {
-    const auto at = std::find_if(s.materials.begin(), s.materials.end(),
-                                 [&](const Material& x) { return x.name == m.name; });
-    const HerschelBulkleyParameters& law = at->herschel_bulkley;
-    // A flow curve has a viscosity of its own only where it is Newtonian; elsewhere compare at a shear rate
-    // of 1/s.
-    if (law.viscosity > 0 && m.numerical_viscosity > law.viscosity)
-      plan.warnings.push_back(
-          "Material \"" + m.name + "\": the FLIP/PIC blend adds a viscosity of " +
-          number(m.numerical_viscosity, "Pa s") + ", more than the material's own (" +
-          number(law.viscosity, "Pa s at 1/s") +
-          "); use \"transfer\": \"apic\" or a flip_blend closer to 1 where flow matters.");
+  for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+    const PlannedMaterial& m = plan.materials[i];
+    warn_of_numerical_viscosity(plan, s.materials[i], m.numerical_viscosity);
     if (m.points > 0 && m.points < 100)
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
@@ -109,40 +124,20 @@ void warn(Plan& plan) {
     plan.warnings.push_back(
         "/numerics/subgrid_removal removes nothing: only weak points go, and no material has a finite "
         "tear_threshold.");
-  if ((s.look.color_by == "plasticity" || s.look.color_by == "weak") && !tears)
-    plan.warnings.push_back("Points are coloured by \"" + s.look.color_by +
-                            "\", which is 0 everywhere: no material has a finite tear_threshold.");
-  if (s.numerics.integration == Integration::kExplicit && s.numerics.time_step > plan.step_bound)
-    plan.warnings.push_back("The fixed time step, " + number(s.numerics.time_step, "s") +
-                            ", is longer than a pressure wave takes through a cell, " +
-                            number(plan.step_bound, "s") +
-                            ": the run will probably end with a runaway state.");
+  warn_of_colours(plan);
+  warn_of_the_step(plan);
+}
+
+/// What the solver adds to a material's viscosity at the planned step, Pa s.
+double numerical_viscosity(const Scene& scene, double density, double dt) {
+  if (scene.solver == Solver::kMlsrk) return velocity_blend_viscosity(scene, density, dt);
+  const double blend = blend_viscosity(scene, density, dt);
+  return scene.numerics.integration == Integration::kSemiImplicit
+             ? blend + density * missing_diffusion(scene, dt)
+             : blend;
 }
 
 }  // namespace
-
-std::vector<std::string> planned_scalars(const Scene& scene) {
-  std::vector<std::string> scalars;
-  if (scene.look.color_by != "material") scalars.push_back(scene.look.color_by);
-  for (const std::string& name : scene.output.scalars)
-    if (name != scene.look.color_by) scalars.push_back(name);
-  return scalars;
-}
-
-std::vector<Field> planned_fields(const Scene& scene, const Material& material) {
-  std::vector<Field> fields = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
-                               Field::kElasticStrain, Field::kId,       Field::kCell};
-  if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
-  const std::vector<std::string> scalars = planned_scalars(scene);
-  if (std::find(scalars.begin(), scalars.end(), "plastic_strain") != scalars.end())
-    fields.push_back(Field::kPlasticStrain);
-  if (scene.numerics.resampling) fields.push_back(Field::kShare);
-  if (material.tearing.tears()) {
-    fields.push_back(Field::kDeformation);
-    fields.push_back(Field::kPlasticity);
-  }
-  return fields;
-}
 
 Plan make_plan(const Scene& scene, const Choices& choices) {
   if (!machine_has(choices.kernel_level))
@@ -173,16 +168,13 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
       m.fields.push_back({to_string(f), layout.components[at] * layout.component_bytes[at]});
     }
     m.bytes_per_point = layout.stride / kTile;
-    m.wave_speed = wave_speed(scene.materials[i].herschel_bulkley);
-    const double density = scene.materials[i].herschel_bulkley.density;
-    m.numerical_viscosity = blend_viscosity(scene, density, plan.time_step);
-    if (scene.numerics.integration == Integration::kSemiImplicit)
-      m.numerical_viscosity += density * missing_diffusion(scene, plan.time_step);
+    m.wave_speed = wave_speed(scene.materials[i]);
+    m.numerical_viscosity = numerical_viscosity(scene, scene.materials[i].density(), plan.time_step);
     plan.points += m.points;
     plan.points_emitted += m.points_emitted;
     plan.materials.push_back(std::move(m));
   }
-  plan.stages = planned_stages(scene);
+  plan.stages = scene.solver == Solver::kMlsrk ? mlsrk_stages(scene) : mpm_stages(scene);
   plan.memory_bytes = expected_memory(plan);
   warn(plan);
   return plan;

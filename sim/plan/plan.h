@@ -5,18 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/kernel_level.h"
 #include "sim/scene/scene.h"
 
 /// Scene -> Plan: everything that is derived before a run, resolved once and stored with the job.
 namespace lather {
-
-/// Instruction sets that kernels are compiled for. Results are bit-equal within one level.
-enum class KernelLevel { kV2, kV3, kV4 };
-
-[[nodiscard]] const char* to_string(KernelLevel level);                ///< "x86-64-v2" …
-[[nodiscard]] KernelLevel kernel_level_from_string(std::string_view);  ///< throws InputError
-[[nodiscard]] KernelLevel best_kernel_level();                         ///< of the machine this runs on
-[[nodiscard]] bool machine_has(KernelLevel level);
 
 /// What is chosen at submission beyond the scene.
 struct Choices {

@@ -24,8 +24,22 @@ enum class Stage : int {
   kPositions,           ///< 14
   kRemoveSubgrid,       ///< 12: only once an interval, between steps
   kAvoidVoid,           ///< 15: resampling; only once an interval
+  // Of the MLSRK solver, which also has kSort, kParticleCollisions and kPositions; see kMlsrkStages.
+  kNeighbours,         ///< points by cell, and which tiles of them reach which
+  kShapeFunctions,     ///< corrections b and their gradients [MLSRK eq. 8, Appendix A]
+  kStress,             ///< [MLSRK eq. 22, 23]
+  kMomentum,           ///< accelerations and velocities [MLSRK eq. 11]
+  kVelocityGradients,  ///< and the velocities that they are blended with [MLSRK eq. 12, 18]
+  kDeformation,        ///< deformation, return mappings [MLSRK eq. 17, 19, 24-29]
 };
-inline constexpr int kStageCount = 17;
+inline constexpr int kStageCount = 23;
+inline constexpr int kMpmStageCount = static_cast<int>(Stage::kNeighbours);  ///< they stand first
+
+/// Those of the MLSRK solver, in the order in which they run.
+inline constexpr std::array<Stage, 9> kMlsrkStages = {
+    Stage::kSort,     Stage::kNeighbours,         Stage::kShapeFunctions,    Stage::kStress,
+    Stage::kMomentum, Stage::kParticleCollisions, Stage::kVelocityGradients, Stage::kDeformation,
+    Stage::kPositions};
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "sort",
@@ -43,7 +57,13 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "particle collisions",
                                                                      "positions",
                                                                      "remove subgrid geometry",
-                                                                     "avoid a void"};
+                                                                     "avoid a void",
+                                                                     "neighbours",
+                                                                     "shape functions",
+                                                                     "stress",
+                                                                     "momentum",
+                                                                     "velocity gradients",
+                                                                     "deformation"};
 
 /// Whether the stage runs on its own and its time is known; else it is a part of the stage before it, whose
 /// time holds its own.

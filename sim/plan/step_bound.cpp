@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lather {
 
@@ -9,15 +10,46 @@ double wave_speed(const HerschelBulkleyParameters& law) {
   return std::sqrt((law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus) / law.density);
 }
 
+double wave_speed(const Material& material) {
+  struct Speed {
+    double operator()(const HerschelBulkleyParameters& p) const { return wave_speed(p); }
+    double operator()(const NeoHookeanParameters& p) const { return of(p.elastic); }
+    double operator()(const DruckerPragerParameters& p) const { return of(p.elastic); }
+    double operator()(const SnowParameters& p) const { return of(p.elastic); }
+    double operator()(const LiquidParameters& p) const { return std::sqrt(p.bulk_modulus / p.density); }
+    static double of(const ElasticParameters& p) {
+      return std::sqrt((p.lame_lambda() + 2 * p.lame_mu()) / p.density);
+    }
+  };
+  return std::visit(Speed{}, material.law);
+}
+
+double viscous_diffusion(const Material& material, int dimension) {
+  struct Viscous {
+    ViscousParameters operator()(const HerschelBulkleyParameters&) const { return {}; }
+    ViscousParameters operator()(const NeoHookeanParameters& p) const { return p.viscous; }
+    ViscousParameters operator()(const DruckerPragerParameters& p) const { return p.viscous; }
+    ViscousParameters operator()(const SnowParameters&) const { return {}; }
+    ViscousParameters operator()(const LiquidParameters& p) const { return p.viscous; }
+  };
+  const ViscousParameters v = std::visit(Viscous{}, material.law);
+  const double along = 2 * (1 - 1.0 / dimension) * v.viscosity + v.bulk_viscosity;
+  return (along + v.viscosity) / material.density();
+}
+
 double step_bound(const Scene& scene) {
-  double fastest = 0;
-  const auto count = [&](const std::string& material) {
-    for (const Material& m : scene.materials)
-      if (m.name == material) fastest = std::max(fastest, wave_speed(m.herschel_bulkley));
+  double bound = std::numeric_limits<double>::infinity();
+  const auto count = [&](const std::string& name) {
+    for (const Material& m : scene.materials) {
+      if (m.name != name) continue;
+      bound = std::min(bound, scene.spacing / wave_speed(m));
+      const double diffusion = viscous_diffusion(m, scene.dimension);
+      if (diffusion > 0) bound = std::min(bound, scene.spacing * scene.spacing / (2 * diffusion));
+    }
   };
   for (const Body& body : scene.bodies) count(body.material);
   for (const Emitter& emitter : scene.emitters) count(emitter.material);
-  return scene.spacing / fastest;
+  return bound;
 }
 
 double planned_step(const Scene& scene) {
@@ -36,6 +68,13 @@ double blend_viscosity(const Scene& scene, double density, double dt) {
   if (scene.numerics.transfer == Transfer::kApic) return 0;
   const double moment = scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25;
   return density * (1 - flip_share(scene.numerics, dt)) * moment * scene.spacing * scene.spacing / dt;
+}
+
+double velocity_blend_viscosity(const Scene& scene, double density, double dt) {
+  const Mlsrk& n = scene.numerics.mlsrk;
+  const double a = 0.5 * n.support_radius * scene.spacing;
+  const double kept = std::pow(n.velocity_blend, dt / n.velocity_blend_reference_step);
+  return density * (1 - kept) * a * a / (6 * dt);
 }
 
 double missing_diffusion(const Scene& scene, double dt) {

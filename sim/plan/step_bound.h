@@ -6,9 +6,22 @@ namespace lather {
 
 /// Speed of compression waves at rest, sqrt((kappa + 4/3 mu) / rho), m/s.
 [[nodiscard]] double wave_speed(const HerschelBulkleyParameters& law);
+/// The same of any law, m/s: sqrt((lambda + 2 mu) / rho) of elastic ones, sqrt(K / rho) of liquids. Hardening
+/// (snow, drucker-prager) is left out: it starts at 1, and the running step counts what it has come to.
+[[nodiscard]] double wave_speed(const Material& material);
 
-/// Longest step that a wave allows, spacing over the fastest material's wave speed, s; without the safety
-/// factor.
+/// Diffusion of velocity by a law's Newtonian viscosity, m^2/s: of its change along the direction it varies
+/// in, (2 (1 - 1/d) mu_v + zeta_v) / rho, and across it, mu_v / rho, together, as surfaces mix both.
+/// [MLSRK eq. 23]
+[[nodiscard]] double viscous_diffusion(const Material& material, int dimension);
+
+/// Longest step that waves and, in the MLSRK solver, viscosity allow, s; without the safety factor. The
+/// smallest, over materials, of spacing / wave speed and spacing^2 / (2 viscous_diffusion()).
+///
+/// Both are below what explicit steps bear. In a lattice a gradient that is exact for linear functions sees a
+/// wave number of 1/spacing at the most along each axis, so k^2 <= d / spacing^2; waves are stable to
+/// 2 / (c k) >= 1.15 spacing / c, diffusion to 2 / (nu k^2) >= 0.67 spacing^2 / nu. Light points
+/// at surfaces are left to the safety factor.
 [[nodiscard]] double step_bound(const Scene& scene);
 
 /// The step before points are fast: fixed, or safety factor times the bound (semi-implicit: times
@@ -22,6 +35,11 @@ namespace lather {
 /// Viscosity that the PIC part of the blend adds at step dt, Pa s: rho (1 - alpha) D h^2 / dt with D = 1/3
 /// (cubic) or 1/4 (quadratic), the second moment of the kernel; 0 with APIC.
 [[nodiscard]] double blend_viscosity(const Scene& scene, double density, double dt);
+
+/// Viscosity that the MLSRK solver's blend of velocities adds at step dt, Pa s: rho (1 - alpha) a^2 / (6 dt),
+/// where a is half the support radius and alpha = velocity_blend^(dt / velocity_blend_reference_step).
+/// [MLSRK eq. 12]
+[[nodiscard]] double velocity_blend_viscosity(const Scene& scene, double density, double dt);
 
 /// Diffusion of velocity that the blend is short of in a step of length dt, m^2/s: over a step longer than
 /// the blend's own time, a filter that acts once a step cannot smooth as much as many short ones do. So the

@@ -25,6 +25,10 @@ const char* to_string(Field field) {
       return "deformation F - I";
     case Field::kPlasticity:
       return "plasticity |dev Cp|";
+    case Field::kPlasticVolume:
+      return "plastic volume change Jp - 1";
+    case Field::kVelocityGradient:
+      return "velocity gradient";
     case Field::kId:
       return "id";
     case Field::kCell:
@@ -48,9 +52,11 @@ TileLayout make_layout(int dimension, const std::vector<Field>& fields) {
       case Field::kElasticStrain:
         return {d == 3 ? 6 : 4, real};
       case Field::kAffine:
+      case Field::kVelocityGradient:
         return {d * d, real};
       case Field::kPlasticStrain:
       case Field::kPlasticity:
+      case Field::kPlasticVolume:
       case Field::kShare:
         return {1, real};
       case Field::kDeformation:

@@ -14,19 +14,21 @@ namespace lather {
 inline constexpr int kTile = 16;
 
 enum class Field : int {
-  kFraction,       ///< position within its cell, per axis, unsigned fixed point (FixedPoint<Real>)
-  kVelocity,       ///< m/s, per axis
-  kVolumeChange,   ///< J - 1, dimensionless
-  kElasticStrain,  ///< B = be - I: xx yy zz xy xz yz in 3D; xx yy zz xy in 2D
-  kAffine,         ///< APIC's C, row by row, 1/s
-  kPlasticStrain,  ///< accumulated equivalent plastic strain, dimensionless
-  kShare,          ///< mass and volume, over those that a point of the material is sampled with
-  kDeformation,    ///< F - I, row by row in 3D; xx xy yx yy zz in 2D
-  kPlasticity,     ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
-  kId,             ///< uint32, stable over the run; kNoPoint in empty lanes
-  kCell,           ///< int16 per axis, cell index from the domain's lower corner
+  kFraction,          ///< position within its cell, per axis, unsigned fixed point (FixedPoint<Real>)
+  kVelocity,          ///< m/s, per axis
+  kVolumeChange,      ///< J - 1, dimensionless
+  kElasticStrain,     ///< B = be - I: xx yy zz xy xz yz in 3D; xx yy zz xy in 2D
+  kAffine,            ///< APIC's C, row by row, 1/s
+  kPlasticStrain,     ///< accumulated equivalent plastic strain, dimensionless
+  kShare,             ///< mass and volume, over those that a point of the material is sampled with
+  kDeformation,       ///< F - I, or F_e - I of MLSRK, row by row in 3D; xx xy yx yy zz in 2D
+  kPlasticity,        ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
+  kPlasticVolume,     ///< J_p - 1, dimensionless
+  kVelocityGradient,  ///< of the last step, row by row, 1/s
+  kId,                ///< uint32, stable over the run; kNoPoint in empty lanes
+  kCell,              ///< int16 per axis, cell index from the domain's lower corner
 };
-inline constexpr int kFieldCount = 11;
+inline constexpr int kFieldCount = 13;
 inline constexpr std::uint32_t kNoPoint = 0xffffffffU;
 
 /// A position is a cell index plus a fixed-point fraction of the cell width: plain floats would not move at a

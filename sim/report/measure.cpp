@@ -7,28 +7,20 @@
 
 #include "sim/math/counter_rng.h"
 #include "sim/math/parallel.h"
+#include "sim/report/elastic_energy.h"
 
 namespace lather {
 namespace {
 
 constexpr std::size_t kChunkTiles = 256;
 
-/// Elastic energy per volume at rest, by parts, Pa. [Foam eq. 1]
-/// (J^2 - 1)/2 - ln J with j = J - 1, without cancellation: j + j^2/2 - log1p(j).
-struct ElasticEnergy {
-  double volume;
-  double shear;
-};
-ElasticEnergy elastic_energy(const HerschelBulkleyParameters& law, double j, double trace_B) {
-  return {0.5 * law.bulk_modulus * (j + 0.5 * j * j - std::log1p(j)), 0.5 * law.shear_modulus * trace_B};
-}
-
 template <class Real>
 class PointMeasure {
  public:
   PointMeasure(const Scene& scene, const Material& material, const ParticleSet<Real>& set)
       : scene_(scene),
-        law_(material.herschel_bulkley),
+        law_(material.law),
+        density_(material.density()),
         tear_threshold_(static_cast<Real>(material.tearing.tear_threshold)),
         set_(set),
         volume_(scene.point_volume()),
@@ -45,7 +37,7 @@ class PointMeasure {
 
   void add(FrameMeasure& m, std::size_t t, int lane) const {
     const double volume = volume_ * set_.share(t, lane);
-    const double mass = law_.density * volume;
+    const double mass = density_ * volume;
     const Vec3 x = set_.position(t, lane);
     const Vec3 v = set_.velocity(t, lane);
     ++m.points;
@@ -58,35 +50,45 @@ class PointMeasure {
     m.kinetic_energy += 0.5 * mass * v.squaredNorm();
     m.gravity_energy -= mass * scene_.gravity.dot(x);
     m.max_speed = std::max(m.max_speed, v.norm());
-    const auto at = [&](Field f, int c) {
-      return static_cast<double>(set_.template values<Real>(t, f, c)[lane]);
-    };
-    const double j = at(Field::kVolumeChange, 0);
-    const double trace_B =
-        at(Field::kElasticStrain, 0) + at(Field::kElasticStrain, 1) + at(Field::kElasticStrain, 2);
-    const ElasticEnergy e = elastic_energy(law_, j, trace_B);
+    const double j = set_.volume_change(t, lane);
+    const ElasticEnergy e = elastic_energy(law_, state_of(t, lane, j));
     m.elastic_volume_energy += volume * e.volume;
     m.elastic_shear_energy += volume * e.shear;
     m.min_volume_ratio = std::min(m.min_volume_ratio, 1 + j);
     m.max_volume_ratio = std::max(m.max_volume_ratio, 1 + j);
-    if (set_.layout().has(Field::kPlasticity) && at(Field::kPlasticity, 0) > tear_threshold_)
+    if (set_.layout().has(Field::kPlasticity) && at(t, lane, Field::kPlasticity, 0) > tear_threshold_)
       m.weak_fraction += 1;
   }
 
  private:
+  [[nodiscard]] double at(std::size_t t, int lane, Field f, int c) const {
+    return static_cast<double>(set_.template values<Real>(t, f, c)[lane]);
+  }
+
+  [[nodiscard]] ElasticState state_of(std::size_t t, int lane, double volume_change) const {
+    ElasticState s;
+    s.volume_change = volume_change;
+    if (set_.layout().has(Field::kElasticStrain)) {
+      for (int c = 0; c < 3; ++c) s.trace_elastic_strain += at(t, lane, Field::kElasticStrain, c);
+      return s;
+    }
+    s.deformation = set_.deformation_change(t, lane);
+    s.plastic_volume_change = set_.plastic_volume_change(t, lane);
+    return s;
+  }
+
   [[nodiscard]] Vec3 affine_spin(std::size_t t, int lane) const {
     if (!set_.layout().has(Field::kAffine)) return Vec3::Zero();
     const int d = scene_.dimension;
     const auto c = [&](int a, int b) {
-      return a < d && b < d
-                 ? static_cast<double>(set_.template values<Real>(t, Field::kAffine, a * d + b)[lane])
-                 : 0.0;
+      return a < d && b < d ? at(t, lane, Field::kAffine, a * d + b) : 0.0;
     };
     return moment_ * Vec3(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
   }
 
   const Scene& scene_;
-  const HerschelBulkleyParameters& law_;
+  const Law& law_;
+  double density_;
   double tear_threshold_;  ///< as rounded for the kernels
   const ParticleSet<Real>& set_;
   double volume_;

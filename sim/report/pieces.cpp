@@ -25,9 +25,10 @@ std::int32_t wrapped(std::int32_t cell, std::size_t axis, const CellBounds& boun
   return ((cell % n) + n) % n;
 }
 
-/// Occupied cells in ascending order, each once, with their points.
+/// Occupied cells of `width` spacings in ascending order, each once, with their points.
 template <class Real>
-std::vector<Cell> occupied_cells(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds) {
+std::vector<Cell> occupied_cells(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds,
+                                 int width) {
   std::vector<Cell> cells;
   for (const ParticleSet<Real>& set : sets)
     for (std::size_t t = 0; t < set.tiles(); ++t)
@@ -36,7 +37,8 @@ std::vector<Cell> occupied_cells(const std::vector<ParticleSet<Real>>& sets, con
         Cell c{{}, 1};
         for (int a = 0; a < bounds.dimension; ++a) {
           const auto axis = static_cast<std::size_t>(a);
-          c.at[axis] = wrapped(set.template values<std::int16_t>(t, Field::kCell, a)[lane], axis, bounds);
+          const std::int32_t cell = set.template values<std::int16_t>(t, Field::kCell, a)[lane];
+          c.at[axis] = wrapped(cell / width - (cell % width < 0 ? 1 : 0), axis, bounds);
         }
         // Points come sorted by block: most repeat a cell met lately.
         if (!cells.empty() && cells.back().at == c.at)
@@ -59,8 +61,10 @@ std::vector<Cell> occupied_cells(const std::vector<ParticleSet<Real>>& sets, con
 }  // namespace
 
 template <class Real>
-Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds) {
-  const std::vector<Cell> cells = occupied_cells(sets, bounds);
+Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds& fine, int width) {
+  CellBounds bounds = fine;
+  for (std::int32_t& n : bounds.cells) n = (n + width - 1) / width;
+  const std::vector<Cell> cells = occupied_cells(sets, bounds, width);
   DisjointSets connected(cells.size());
   const int across = bounds.dimension == 3 ? 1 : 0;
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -94,8 +98,8 @@ Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds&
   return pieces;
 }
 
-template Pieces find_pieces(const std::vector<ParticleSet<float>>&, const CellBounds&);
-template Pieces find_pieces(const std::vector<ParticleSet<double>>&, const CellBounds&);
+template Pieces find_pieces(const std::vector<ParticleSet<float>>&, const CellBounds&, int);
+template Pieces find_pieces(const std::vector<ParticleSet<double>>&, const CellBounds&, int);
 
 std::optional<double> tear_time(const std::vector<FrameMeasure>& frames, double share, double lasting) {
   const FrameMeasure* torn = nullptr;

@@ -6,7 +6,7 @@
 #include "sim/particles/particle_set.h"
 #include "sim/report/report.h"
 
-/// Connected pieces of the material. A grid cell is occupied when it holds a point, of any material; occupied
+/// Connected pieces of the material. A cell is occupied when it holds a point, of any material; occupied
 /// cells that share a face, an edge or a corner are connected (across periodic faces, too). So two pieces are
 /// more than a cell apart along some axis.
 namespace lather {
@@ -21,8 +21,10 @@ struct Pieces {
   double second_share = 0;   ///< … in the second largest, 0 where there is none
 };
 
+/// In cells of `width` spacings; a power of two, so that it divides the periods.
 template <class Real>
-[[nodiscard]] Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds);
+[[nodiscard]] Pieces find_pieces(const std::vector<ParticleSet<Real>>& sets, const CellBounds& bounds,
+                                 int width = 1);
 
 /// When the material tore: the time (s) of the first frame in which it lies in two pieces, the second holding
 /// at least `share` of the points, and does so in every frame of the `lasting` seconds after it. None where

@@ -114,6 +114,10 @@ struct Report {
   double smallest_time_step = 0;  ///< s
   double largest_time_step = 0;   ///< s
   SolverTotals solver;            ///< of an explicit run: all 0
+  // Of the MLSRK solver, point by point and step by step:
+  std::uint64_t regularized_moments =
+      0;                           ///< moment matrices that needed more than the scene's regularization
+  std::uint64_t light_masses = 0;  ///< lumped masses below a tenth of the point's own, which took its place
   std::vector<EmitterReport> emitters;
   std::vector<ProbeSeries> probes;
   std::vector<StageTime> stages;

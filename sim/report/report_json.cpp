@@ -120,6 +120,8 @@ std::string to_json(const Report& r) {
                      {"largest_cfl", r.largest_cfl},
                      {"time_step", {{"smallest", r.smallest_time_step}, {"largest", r.largest_time_step}}},
                      {"solver", solver(r.solver)},
+                     {"regularized_moments", r.regularized_moments},
+                     {"light_masses", r.light_masses},
                      {"emitters", emitters},
                      {"probes", probes},
                      {"stages", stages},

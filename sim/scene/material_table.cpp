@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "sim/scene/material_cards.h"
+#include "sim/scene/models.h"
 #include "sim/scene/tables.h"
 
 namespace lather::tables {
@@ -24,19 +27,112 @@ Field<Material> preset_field() {
   return out;
 }
 
+/// The name of a law; reading it starts the material with that law's defaults.
+Field<Material> model_field() {
+  std::vector<std::string> names;
+  for (const Model& m : models()) names.push_back(m.name);
+  Codec<Law> codec;
+  const Codec<std::string> by_name = one_of(names);
+  codec.schema = by_name.schema;
+  codec.allowed = by_name.allowed;
+  codec.read = [by_name](const Value& value, Law& law, const Place& place) {
+    std::string name;
+    if (!by_name.read(value, name, place)) return false;
+    for (const Model& m : models())
+      if (m.name == name) law = m.start;
+    return true;
+  };
+  codec.write = [](const Law& law) { return Value(model_of(law).name); };
+  return optional<Material>("model", &Material::law, codec, "the constitutive law, see below");
+}
+
+/// The keys that a material of this model takes. Cards and tearing are of the default one.
+std::vector<FieldInfo> gathered_keys(const Model& model) {
+  const bool is_default = &model == &default_model();
+  std::vector<FieldInfo> out;
+  for (const FieldInfo& field : material().info().fields)
+    if (is_default || field.name != "preset") out.push_back(field);
+  out.insert(out.end(), model.info.fields.begin(), model.info.fields.end());
+  const std::vector<FieldInfo>& tears = tearing().info().fields;
+  if (is_default) out.insert(out.end(), tears.begin(), tears.end());
+  return out;
+}
+
+const std::vector<FieldInfo>& keys_of(const Model& model) {
+  static const std::vector<std::vector<FieldInfo>> keys = [] {
+    std::vector<std::vector<FieldInfo>> all;
+    for (const Model& m : models()) all.push_back(gathered_keys(m));
+    return all;
+  }();
+  return keys[model.start.index()];
+}
+
+bool has_key(const std::vector<FieldInfo>& fields, const std::string& key) {
+  return std::any_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.name == key; });
+}
+
+/// Notes the keys that another model takes, or none.
+void refuse_keys(const Object& object, const Model& model, const Place& place) {
+  const std::vector<FieldInfo>& keys = keys_of(model);
+  std::vector<std::string> known;
+  for (const FieldInfo& field : keys) known.push_back(field.name);
+  Object rest;
+  for (const auto& [key, value] : object) {
+    std::vector<std::string> takers;
+    for (const Model& m : models())
+      if (has_key(keys_of(m), key)) takers.push_back(m.name);
+    if (takers.empty() || has_key(keys, key)) {
+      rest.emplace_back(key, value);
+      continue;
+    }
+    place.at(key).refuse(value, listed(known),
+                         "\"" + key + "\" goes with the model " + listed(takers) +
+                             "; this material is of the model \"" + model.name +
+                             "\". Take the key out, or name another \"model\".");
+  }
+  refuse_unknown_keys(rest, known, place);
+}
+
 bool read_material(const Value& value, Material& out, const Place& place) {
   if (value.object() == nullptr) return place.refuse(value, "an object", "A material must be an object.");
-  std::vector<std::string> known = material().names();
-  for (const std::string& name : herschel_bulkley().names()) known.push_back(name);
-  for (const std::string& name : tearing().names()) known.push_back(name);
-  refuse_unknown_keys(*value.object(), known, place);
-  bool good = material().read_fields(value, out, place);
+  out.law = default_model().start;
+  out.tearing = tearing().prototype();
+  const bool good = material().read_fields(value, out, place);
+  const Model& model = model_of(out.law);
+  const Value* named = value.find("model");
+  if (named != nullptr && (named->text() == nullptr || *named->text() != model.name)) return false;
+  refuse_keys(*value.object(), model, place);
   const MaterialCard* card = find_material_card(out.preset);
-  out.herschel_bulkley = card != nullptr ? card->parameters : herschel_bulkley().prototype();
-  out.tearing = card != nullptr ? card->tearing : tearing().prototype();
-  good = tearing().read_fields(value, out.tearing, place) && good;
-  const bool complete = value.find("preset") != nullptr;
-  return herschel_bulkley().read_fields(value, out.herschel_bulkley, place, complete) && good;
+  if (card != nullptr && &model == &default_model()) {
+    out.law = card->parameters;
+    out.tearing = card->tearing;
+  }
+  const bool tears_well = tearing().read_fields(value, out.tearing, place);
+  const bool complete = &model == &default_model() && value.find("preset") != nullptr;
+  return model.read(value, out.law, place, complete) && tears_well && good;
+}
+
+/// The JSON Schema of a material of this model. Of the default one neither the model need be named nor, with
+/// a preset, any parameter.
+Object schema_of(const Model& model) {
+  const bool is_default = &model == &default_model();
+  TableInfo table = {model.name, model.info.words, keys_of(model)};
+  Array parameters;
+  for (FieldInfo& field : table.fields) {
+    if (field.name == "model") {
+      field.schema = {{"const", model.name}};
+      if (!is_default) field.default_value.reset();
+      field.presence = is_default ? Presence::kOptional : Presence::kRequired;
+    } else if (is_default && field.presence == Presence::kRequired && field.name != "name") {
+      parameters.emplace_back(field.name);
+      field.presence = Presence::kOptional;
+    }
+  }
+  Object schema = object_schema(table);
+  if (is_default)
+    schema.emplace_back("anyOf",
+                        Array{Object{{"required", Array{"preset"}}}, Object{{"required", parameters}}});
+  return schema;
 }
 
 }  // namespace
@@ -44,34 +140,11 @@ bool read_material(const Value& value, Material& out, const Place& place) {
 const Table<Material>& material() {
   static const Table<Material> table(
       "material",
-      "What a body is made of: a card by name, parameters, or a card with some parameters replaced.",
-      {required<Material>("name", &Material::name, text(1, 64), "by which bodies refer to it"),
-       optional<Material>("model", &Material::model, one_of({"herschel-bulkley"}), "the constitutive law"),
+      "What a body is made of: a card by name, the parameters of a model, or a card with some parameters "
+      "replaced. The solver \"mpm\" takes the model \"herschel-bulkley\" only; cards and tearing are of that "
+      "model.",
+      {required<Material>("name", &Material::name, text(1, 64), "by which bodies refer to it"), model_field(),
        preset_field()});
-  return table;
-}
-
-const Table<HerschelBulkleyParameters>& herschel_bulkley() {
-  using P = HerschelBulkleyParameters;
-  P elastic;
-  elastic.yield_stress = kInfinity;
-  static const Table<P> table(
-      "herschel-bulkley",
-      "Elasto-viscoplastic foam. Perfectly plastic with viscosity 0, Bingham with flow_index 1, elastic with "
-      "an "
-      "infinite yield_stress. The first three keys are required where no preset is named.",
-      {required<P>("density", &P::density, number("kg/m^3", from_to(1e-3, 1e5)), "mass per volume at rest"),
-       required<P>("bulk_modulus", &P::bulk_modulus, number("Pa", from_to(1e-3, 1e13)),
-                   "stiffness against change of volume"),
-       required<P>("shear_modulus", &P::shear_modulus, number("Pa", from_to(1e-6, 1e13)),
-                   "stiffness against change of form"),
-       optional<P>("yield_stress", &P::yield_stress, number_or_infinity("Pa", from_to(0, 1e13)),
-                   "sigma_Y: plastic flow starts where the shear stress norm reaches sqrt(2/3) of it"),
-       optional<P>("viscosity", &P::viscosity, number("Pa s^h", from_to(0, 1e9)),
-                   "eta: resistance of the plastic flow; h is the flow_index"),
-       optional<P>("flow_index", &P::flow_index, number("1", from_to(0.05, 10)),
-                   "h: below 1 the material thins under shear, above 1 it thickens")},
-      elastic);
   return table;
 }
 
@@ -79,8 +152,8 @@ const Table<TearingParameters>& tearing() {
   using P = TearingParameters;
   static const Table<P> table(
       "tearing",
-      "Any material may tear: where its accumulated plasticity passes tear_threshold it is weak, carries no "
-      "tension and stretches freely.",
+      "A herschel-bulkley material may tear with the solver \"mpm\": where its accumulated plasticity passes "
+      "tear_threshold it is weak, carries no tension and stretches freely.",
       {optional<P>("tear_threshold", &P::tear_threshold, number_or_infinity("1", from_to(1e-6, 1e12)),
                    "sigma_T: a point is weak while |dev C^p|_F exceeds it; C^p is the plastic Cauchy-Green "
                    "tensor"),
@@ -98,25 +171,17 @@ Codec<Material> material_codec() {
   codec.write = [](const Material& m) {
     Object object;
     material().write_fields(m, object);
-    herschel_bulkley().write_fields(m.herschel_bulkley, object);
-    tearing().write_fields(m.tearing, object);
+    model_of(m.law).write(m.law, object);
+    if (m.law.index() == default_model().start.index()) tearing().write_fields(m.tearing, object);
     return Value(std::move(object));
   };
   return codec;
 }
 
 Object material_schema() {
-  Array parameters;
-  std::vector<FieldInfo> fields = herschel_bulkley().info().fields;
-  for (FieldInfo& field : fields) {
-    if (field.presence == Presence::kRequired) parameters.emplace_back(field.name);
-    field.presence = Presence::kOptional;
-  }
-  for (const FieldInfo& field : tearing().info().fields) fields.push_back(field);
-  Object schema = object_schema(material().info(), fields);
-  schema.emplace_back("anyOf",
-                      Array{Object{{"required", Array{"preset"}}}, Object{{"required", parameters}}});
-  return schema;
+  Array any;
+  for (const Model& model : models()) any.emplace_back(schema_of(model));
+  return {{"oneOf", std::move(any)}};
 }
 
 }  // namespace lather::tables

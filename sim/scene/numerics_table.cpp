@@ -61,7 +61,10 @@ const Table<SubgridRemoval>& subgrid_removal() {
 const Table<Numerics>& numerics() {
   using N = Numerics;
   static const Table<N> table(
-      "numerics", "How the scene is computed; every key has a sensible default.",
+      "numerics",
+      "How the scene is computed; every key has a sensible default. Kernel, transfer, FLIP and the keys of "
+      "the "
+      "semi-implicit solver are of the solver \"mpm\" and else without effect.",
       {optional<N>("kernel", &N::kernel,
                    enumeration<Kernel>({{"quadratic", Kernel::kQuadratic}, {"cubic", Kernel::kCubic}}),
                    "B-spline between points and grid"),
@@ -98,7 +101,9 @@ const Table<Numerics>& numerics() {
                   "defaults"),
        switchable(
            "subgrid_removal", &N::subgrid_removal, subgrid_removal(),
-           "removes weak points that are too thin a sliver or speck for the grid; {} takes the defaults")});
+           "removes weak points that are too thin a sliver or speck for the grid; {} takes the defaults"),
+       optional<N>("mlsrk", &N::mlsrk, object_of(mlsrk()), "of the solver \"mlsrk\"; else without effect",
+                   "see mlsrk")});
   return table;
 }
 

@@ -31,7 +31,8 @@ Material material_from_card(std::string_view name) {
   Material material;
   material.name = card->name;
   material.preset = card->name;
-  material.herschel_bulkley = card->parameters;
+  material.law = card->parameters;
+  material.tearing = card->tearing;
   return material;
 }
 

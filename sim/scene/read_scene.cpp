@@ -110,6 +110,17 @@ Scene read(const Value& document, const MeshSource& source, std::vector<Problem>
 
 }  // namespace
 
+double Material::density() const {
+  struct Density {
+    double operator()(const HerschelBulkleyParameters& p) const { return p.density; }
+    double operator()(const LiquidParameters& p) const { return p.density; }
+    double operator()(const NeoHookeanParameters& p) const { return p.elastic.density; }
+    double operator()(const DruckerPragerParameters& p) const { return p.elastic.density; }
+    double operator()(const SnowParameters& p) const { return p.elastic.density; }
+  };
+  return std::visit(Density{}, law);
+}
+
 double Scene::point_volume() const {
   return std::pow(spacing, dimension) / points_per_cell;
 }

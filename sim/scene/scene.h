@@ -7,10 +7,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "sim/error.h"
+#include "sim/material/drucker_prager_parameters.h"
 #include "sim/material/herschel_bulkley_parameters.h"
+#include "sim/material/liquid_parameters.h"
+#include "sim/material/neo_hookean_parameters.h"
+#include "sim/material/snow_parameters.h"
 #include "sim/material/tearing_parameters.h"
 #include "sim/math/vec.h"
 #include "sim/scene/look.h"
@@ -24,6 +29,7 @@ namespace lather {
 inline constexpr int kSceneFormat = 1;  ///< the value of the key "lather"
 
 enum class Boundary { kSlip, kStick, kOpen };  ///< kOpen: points that leave are removed and counted
+enum class Solver { kMpm, kMlsrk };
 enum class Kernel { kQuadratic, kCubic };
 enum class Transfer { kFlip, kApic };
 enum class Precision { kFloat, kDouble };
@@ -35,12 +41,21 @@ struct Domain {
   Boundary boundary = Boundary::kSlip;                   ///< of all faces that are not periodic
 };
 
+/// The constitutive law of a material, by its parameters.
+using Law = std::variant<HerschelBulkleyParameters, NeoHookeanParameters, DruckerPragerParameters,
+                         SnowParameters, LiquidParameters>;
+
 struct Material {
   std::string name;
-  std::string model = "herschel-bulkley";
   std::string preset;  ///< the card it was made from, "" if none
-  HerschelBulkleyParameters herschel_bulkley;
-  TearingParameters tearing;
+  Law law;
+  TearingParameters tearing;  ///< of Herschel-Bulkley materials
+
+  [[nodiscard]] double density() const;  ///< at rest, kg/m^3
+  /// The law of a material that is known to be a Herschel-Bulkley one.
+  [[nodiscard]] const HerschelBulkleyParameters& herschel_bulkley() const {
+    return std::get<HerschelBulkleyParameters>(law);
+  }
 };
 
 struct Body {
@@ -95,6 +110,25 @@ struct SubgridRemoval {
 
 struct MeshFile;
 
+enum class Basis { kConstant, kLinear, kQuadratic };
+enum class KernelShape { kTensor, kRadial };
+/// What a force is divided by: the lumped mass of the shape functions [MLSRK eq. 11], or the point's own
+/// mass.
+enum class InertialMass { kLumped, kOwn };
+
+/// How the MLSRK solver computes.
+struct Mlsrk {
+  Basis basis = Basis::kLinear;
+  KernelShape kernel_shape = KernelShape::kTensor;
+  double support_radius = 3;                    ///< R = 2 a, over the spacing
+  double regularization = 1e-3;                 ///< r, dimensionless; 0: fully consistent shape functions
+  bool regularize_constant = false;             ///< r on the constant too: forces then do not balance
+  double velocity_blend = 0.95;                 ///< alpha_b at the reference step, dimensionless; 1: none
+  double velocity_blend_reference_step = 1e-4;  ///< s: alpha_b of a step is velocity_blend^(dt / this)
+  InertialMass inertial_mass = InertialMass::kLumped;
+  bool volume_correction = true;  ///< of liquids and Drucker-Prager materials [MLSRK eq. 19]
+};
+
 struct Numerics {
   Kernel kernel = Kernel::kCubic;
   Transfer transfer = Transfer::kFlip;
@@ -112,18 +146,19 @@ struct Numerics {
   int solver_iterations = 200;           ///< most of one step
   std::optional<Resampling> resampling;  ///< none: off
   std::optional<SubgridRemoval> subgrid_removal;  ///< none: off
+  Mlsrk mlsrk;                                    ///< of the MLSRK solver only
 };
 
 struct Scene {
   std::string name;
-  std::string solver = "mpm";
+  Solver solver = Solver::kMpm;
   int dimension = 3;
   Domain domain;
   Vec3 gravity = {0, -9.81, 0};  ///< m/s^2
   double duration = 0;           ///< s
   double frame_rate = 30;        ///< 1/s
-  double spacing = 0;            ///< cell width of the grid, m
-  int points_per_cell = 0;       ///< n^dimension; default 8 in 3D, 4 in 2D
+  double spacing = 0;            ///< MPM: cell width of the grid; MLSRK: distance of the points, m
+  int points_per_cell = 0;       ///< n^dimension; default 8 in 3D, 4 in 2D; MLSRK: 1
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Emitter> emitters;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/scene/solver_check.h"
+
 namespace lather {
 namespace {
 
@@ -130,7 +132,8 @@ void check_points_per_cell(const Value& document, Scene& scene, const Place& roo
   static const std::array<int, 4> kPlane = {1, 4, 9, 16};
   static const std::array<int, 4> kSpace = {1, 8, 27, 64};
   const std::array<int, 4>& allowed = scene.dimension == 2 ? kPlane : kSpace;
-  if (document.find("points_per_cell") == nullptr) scene.points_per_cell = allowed[1];
+  if (document.find("points_per_cell") == nullptr)
+    scene.points_per_cell = scene.solver == Solver::kMlsrk ? 1 : allowed[1];
   if (std::find(allowed.begin(), allowed.end(), scene.points_per_cell) != allowed.end()) return;
   root.at("points_per_cell")
       .refuse(document.find("points_per_cell"), scene.dimension == 2 ? "1, 4, 9 or 16" : "1, 8, 27 or 64",
@@ -220,6 +223,7 @@ void check_names(const Value& document, const Scene& scene, const Place& root) {
 
 void check_whole(const Value& document, Scene& scene, const Place& root) {
   check_points_per_cell(document, scene, root);
+  check_solver(document, scene, root);
   if (check_cells(document, scene, root)) check_periods(scene, root);
   check_frames(document, scene, root);
   check_samples(scene, root);

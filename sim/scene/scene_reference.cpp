@@ -70,7 +70,7 @@ std::string scene_reference() {
   out += section(tables::scene().info());
   out += "Beside these:\n\n" + rows(tables::document_fields());
   out += section(tables::domain().info()) + section(tables::material().info());
-  out += section(tables::herschel_bulkley().info(), "### ");
+  for (const tables::Model& model : tables::models()) out += section(model.info, "### ");
   out += section(tables::tearing().info(), "### ");
   out += section(tables::body().info()) + section(tables::emitter().info());
   out += section(tables::obstacle().info());
@@ -87,7 +87,7 @@ std::string scene_reference() {
           rows(tables::probes().common()),
       tables::probes());
   out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ") +
-         section(tables::subgrid_removal().info(), "### ");
+         section(tables::subgrid_removal().info(), "### ") + section(tables::mlsrk().info(), "### ");
   out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());
   return out + cards();

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/scene/tables.h"
 
 namespace lather::tables {
@@ -37,6 +39,22 @@ void check_obstacle(const Value& value, Obstacle& o, const Place& place) {
   place.at("friction")
       .refuse(value.find("friction"), "only where adhesive is false",
               "An adhesive obstacle holds what touches it; take out \"friction\" or \"adhesive\".");
+}
+
+/// What the other solver alone reads is not written: it does not tell scenes apart.
+Field<Scene> numerics_field() {
+  Field<Scene> out = optional<Scene>("numerics", &Scene::numerics, object_of(numerics()),
+                                     "how it is computed", "see numerics");
+  out.write = [write = out.write](const Scene& s) {
+    std::optional<Value> value = write(s);
+    if (s.solver == Solver::kMlsrk) return value;
+    Object& keys = *value->object();
+    keys.erase(
+        std::remove_if(keys.begin(), keys.end(), [](const auto& entry) { return entry.first == "mlsrk"; }),
+        keys.end());
+    return value;
+  };
+  return out;
 }
 
 }  // namespace
@@ -94,7 +112,9 @@ const Table<Scene>& scene() {
       "scene",
       "SI units, y up, angles in degrees. A 2D scene lies in the x-y plane; shapes are cut at z = 0.",
       {optional<Scene>("name", &Scene::name, text(0, 200), "for people"),
-       optional<Scene>("solver", &Scene::solver, one_of({"mpm"}), "the method"),
+       optional<Scene>("solver", &Scene::solver,
+                       enumeration<Solver>({{"mpm", Solver::kMpm}, {"mlsrk", Solver::kMlsrk}}),
+                       "the method: points over a grid, or points alone"),
        optional<Scene>("dimension", &Scene::dimension, integer(2, 3), "2 (plane strain) or 3"),
        required<Scene>("domain", &Scene::domain, object_of(domain()),
                        "the box that the simulation takes place in"),
@@ -103,10 +123,13 @@ const Table<Scene>& scene() {
        required<Scene>("duration", &Scene::duration, number("s", above_to(0, 1e6)), "simulated time"),
        optional<Scene>("frame_rate", &Scene::frame_rate, number("1/s", above_to(0, 1e6)),
                        "pictures per simulated second"),
-       required<Scene>("spacing", &Scene::spacing, number("m", from_to(1e-6, 1e3)), "cell width of the grid"),
-       optional<Scene>("points_per_cell", &Scene::points_per_cell, integer(1, 64),
-                       "material points in a full cell: n^3 in 3D, n^2 in 2D, n from 1 to 4",
-                       "8 in 3D, 4 in 2D"),
+       required<Scene>("spacing", &Scene::spacing, number("m", from_to(1e-6, 1e3)),
+                       "cell width of the grid; with the solver \"mlsrk\", distance of the points"),
+       optional<Scene>(
+           "points_per_cell", &Scene::points_per_cell, integer(1, 64),
+           "material points in a full cell: n^3 in 3D, n^2 in 2D, n from 1 to 4; 1 with the solver "
+           "\"mlsrk\"",
+           "8 in 3D, 4 in 2D, 1 with mlsrk"),
        required<Scene>("materials", &Scene::materials,
                        list_of(material_codec(), 1, kMaxMaterials, "materials"), "what bodies are made of"),
        optional<Scene>("bodies", &Scene::bodies, list_of(object_of(body()), 0, kMaxBodies, "bodies"),
@@ -121,8 +144,7 @@ const Table<Scene>& scene() {
        optional<Scene>("seed", &Scene::seed, counter(), "of all random numbers"),
        optional<Scene>("jitter", &Scene::jitter, number("1", from_to(0, 1)),
                        "random shift of the initial points, over their distance"),
-       optional<Scene>("numerics", &Scene::numerics, object_of(numerics()), "how it is computed",
-                       "see numerics"),
+       numerics_field(),
        optional<Scene>("look", &Scene::look, object_of(look()), "what pictures show", "see look"),
        optional<Scene>("output", &Scene::output, object_of(output()), "pictures and files of every frame",
                        "see output")});

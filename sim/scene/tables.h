@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/scene/models.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/tagged.h"
 
@@ -13,16 +14,18 @@ inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxSpeed = 1e6;
 /// "never" as a time, s.
 inline constexpr double kForever = 1e30;
+/// R of the MLSRK solver over the spacing.
+inline constexpr double kMaxSupportRadius = 4;
 
 [[nodiscard]] const descriptor::Table<Scene>& scene();
 [[nodiscard]] const descriptor::Table<Domain>& domain();
 [[nodiscard]] const descriptor::Table<Material>& material();
-[[nodiscard]] const descriptor::Table<HerschelBulkleyParameters>& herschel_bulkley();
 [[nodiscard]] const descriptor::Table<TearingParameters>& tearing();
 [[nodiscard]] const descriptor::Table<Body>& body();
 [[nodiscard]] const descriptor::Table<Emitter>& emitter();
 [[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();
+[[nodiscard]] const descriptor::Table<Mlsrk>& mlsrk();
 [[nodiscard]] const descriptor::Table<Resampling>& resampling();
 [[nodiscard]] const descriptor::Table<SubgridRemoval>& subgrid_removal();
 [[nodiscard]] const descriptor::Table<Look>& look();

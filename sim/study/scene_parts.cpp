@@ -14,7 +14,7 @@ ShapePtr box_at(const Vec3& center, const Vec3& size) {
 Material material_of(const HerschelBulkleyParameters& law) {
   Material m;
   m.name = "material";
-  m.herschel_bulkley = law;
+  m.law = law;
   return m;
 }
 

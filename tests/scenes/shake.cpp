@@ -11,13 +11,13 @@
 namespace lather::testing_support {
 
 std::vector<Override> perfectly_plastic(const Scene& scene) {
-  const HerschelBulkleyParameters& p = scene.materials.front().herschel_bulkley;
+  const HerschelBulkleyParameters& p = scene.materials.front().herschel_bulkley();
   const double yield = p.yield_stress + std::sqrt(1.5) * p.viscosity * std::pow(kMatchedFlow, p.flow_index);
   return {{"/materials/0/yield_stress", std::to_string(yield)}, {"/materials/0/viscosity", "0"}};
 }
 
 std::vector<Override> viscoplastic(const Scene& scene) {
-  const HerschelBulkleyParameters& p = scene.materials.front().herschel_bulkley;
+  const HerschelBulkleyParameters& p = scene.materials.front().herschel_bulkley();
   const double viscosity = p.viscosity * std::pow(kMatchedFlow, p.flow_index - 1);
   return {{"/materials/0/viscosity", std::to_string(viscosity)}, {"/materials/0/flow_index", "1"}};
 }

@@ -67,7 +67,10 @@ TEST_F(StudyCommand, RheometerSaysWhatIsWrong) {
   const std::string elastic =
       file("elastic.json", R"({"density": 1000, "bulk_modulus": 1e5, "shear_modulus": 1e4})");
   const std::string wrong = file("wrong.json", R"({"preset": "pie", "viscosty": 3})");
+  const std::string snow = file("snow.json", R"({"model": "snow", "density": 400, "youngs_modulus": 1e5,
+    "poisson_ratio": 0.2})");
   const std::pair<std::string, std::string> cases[] = {
+      {snow, "of the model \"herschel-bulkley\" only"},
       {"shaving-crem", "Did you mean \"shaving-cream\""},
       {"missing.json", "missing.json"},
       {directory_.path().string() + "/", "directory"},

@@ -15,6 +15,21 @@ nlohmann::json load(const std::string& name) {
   return nlohmann::json::parse(file);
 }
 
+/// A tensor of dimension rows, completed to plane strain.
+Mat9 plane_strain(const nlohmann::json& rows, std::size_t dimension) {
+  Mat9 m = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (std::size_t i = 0; i < dimension; ++i)
+    for (std::size_t j = 0; j < dimension; ++j) m[3 * i + j] = rows.at(i).at(j);
+  return m;
+}
+
+PlasticCase plastic_case(const nlohmann::json& c) {
+  const int dimension = c.at("dimension");
+  const auto rows = static_cast<std::size_t>(dimension);
+  return {dimension, plane_strain(c.at("F_e_trial"), rows), c.at("J_p").get<double>() - 1,
+          plane_strain(c.at("F_e"), rows), c.at("J_p_new").get<double>() - 1};
+}
+
 }  // namespace
 
 std::vector<ReturnMapCase> return_map_cases() {
@@ -50,6 +65,24 @@ std::vector<TearingCase> tearing_cases() {
                      matrix("cauchy_limited"), matrix("f_limited"), matrix("F_limited"),
                      matrix("be_bar_pre_limited"), matrix("F_recovered")});
   }
+  return cases;
+}
+
+std::vector<DruckerPragerCase> drucker_prager_cases() {
+  std::vector<DruckerPragerCase> cases;
+  const nlohmann::json data = load("drucker_prager.json");
+  for (const auto& c : data.at("cases"))
+    cases.push_back({plastic_case(c), c.at("lame_lambda"), c.at("lame_mu"), c.at("friction_angle_deg"),
+                     c.at("cohesion"), c.at("case")});
+  return cases;
+}
+
+std::vector<SnowCase> snow_cases() {
+  std::vector<SnowCase> cases;
+  const nlohmann::json data = load("snow.json");
+  for (const auto& c : data.at("cases"))
+    cases.push_back(
+        {plastic_case(c), c.at("theta_c"), c.at("theta_s"), c.at("hardening"), c.at("stiffness_factor")});
   return cases;
 }
 

@@ -45,4 +45,26 @@ struct TearingCase {
 };
 std::vector<TearingCase> tearing_cases();
 
+/// One plastic correction in 2 or 3 dimensions; in 2 the tensors are those of plane strain.
+struct PlasticCase {
+  int dimension;
+  Mat9 trial;  ///< F_e before
+  double plastic_volume;
+  Mat9 expected;                   ///< F_e after
+  double expected_plastic_volume;  ///< both J_p - 1
+};
+
+struct DruckerPragerCase : PlasticCase {
+  double lame_lambda, lame_mu;  ///< Pa
+  double friction_angle_deg, cohesion;
+  std::string branch;  ///< tension, sliding or elastic
+};
+std::vector<DruckerPragerCase> drucker_prager_cases();
+
+struct SnowCase : PlasticCase {
+  double theta_c, theta_s, hardening;
+  double stiffness_factor;  ///< exp(hardening (1 - J_p)) after
+};
+std::vector<SnowCase> snow_cases();
+
 }  // namespace lather::testing_support

@@ -47,10 +47,10 @@ TEST(Failure, ASingleNotANumberIsSeenInTheSameStep) {
     seed_points(plan.scene,
                 [&](const Seed& s) { state.sets[0].add(s.position, s.velocity, s.velocity_gradient, s.id); });
     mpm::Stepper<float> stepper(model, 2);
-    EXPECT_TRUE(stepper.step(state, 1e-4).finite);
+    EXPECT_TRUE(stepper.step(state, 1e-4).extremes.finite);
     state.sets[0].values<float>(state.sets[0].tiles() / 2, field)[0] =
         std::numeric_limits<float>::quiet_NaN();
-    EXPECT_FALSE(stepper.step(state, 1e-4).finite) << to_string(field);
+    EXPECT_FALSE(stepper.step(state, 1e-4).extremes.finite) << to_string(field);
   }
 }
 

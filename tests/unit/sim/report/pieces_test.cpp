@@ -22,11 +22,12 @@ ParticleSet<float> points_in(const std::vector<Vec3>& cells, int dimension = 3) 
   return set;
 }
 
-Pieces pieces_of(const std::vector<Vec3>& cells, const CellBounds& bounds = {3, {20, 20, 20}, {}, false}) {
+Pieces pieces_of(const std::vector<Vec3>& cells, const CellBounds& bounds = {3, {20, 20, 20}, {}, false},
+                 int width = 1) {
   std::vector<ParticleSet<float>> sets;
   sets.push_back(points_in(cells, bounds.dimension));
   sets[0].sort(bounds, 1);
-  return find_pieces(sets, bounds);
+  return find_pieces(sets, bounds, width);
 }
 
 TEST(Pieces, CellsThatShareACornerAreOnePiece) {
@@ -46,6 +47,12 @@ TEST(Pieces, PeriodicFacesConnect) {
   const std::vector<Vec3> cells = {{0, 3, 3}, {19, 3, 3}};
   EXPECT_EQ(pieces_of(cells).count, 2U);
   EXPECT_EQ(pieces_of(cells, {3, {20, 20, 20}, {true, false, false}, false}).count, 1U);
+}
+
+TEST(Pieces, WiderCellsBridgeSmallerGaps) {
+  const std::vector<Vec3> cells = {{-2, 4, 4}, {1, 4, 4}, {4, 4, 4}, {9, 4, 4}};  // in pairs: -1 | 0 | 2 | 4
+  EXPECT_EQ(pieces_of(cells).count, 4U);
+  EXPECT_EQ(pieces_of(cells, {3, {20, 20, 20}, {}, false}, 2).count, 3U);
 }
 
 TEST(Pieces, CrumbsAreNotCounted) {

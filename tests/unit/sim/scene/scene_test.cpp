@@ -46,7 +46,7 @@ TEST(MaterialCards, HoldThePrintedNumbers) {
   EXPECT_EQ(all_material_cards().size(), table.size());
   for (const auto& [name, numbers] : table) {
     const Scene s = parse_scene(with("/materials/0/preset", "\"" + name + "\""));
-    const HerschelBulkleyParameters& p = s.materials[0].herschel_bulkley;
+    const HerschelBulkleyParameters& p = s.materials[0].herschel_bulkley();
     EXPECT_EQ(s.materials[0].preset, name);
     EXPECT_DOUBLE_EQ(p.density, numbers[0]) << name;
     EXPECT_DOUBLE_EQ(p.bulk_modulus, numbers[1]) << name;
@@ -70,16 +70,16 @@ TEST(MaterialCards, AreListedAsJsonWithTheirSource) {
 
 TEST(Material, TakesWhatIsGivenOverItsCard) {
   const Scene s = parse_scene(with("/materials/0/viscosity", "0"));
-  EXPECT_EQ(s.materials[0].herschel_bulkley.viscosity, 0);
-  EXPECT_EQ(s.materials[0].herschel_bulkley.density, 77.7);
+  EXPECT_EQ(s.materials[0].herschel_bulkley().viscosity, 0);
+  EXPECT_EQ(s.materials[0].herschel_bulkley().density, 77.7);
 }
 
 TEST(Material, WithoutYieldStressOrWithTheWordInfinityIsElastic) {
   const std::string elastic = R"("name": "foam", "density": 100, "bulk_modulus": 1e5, "shear_modulus": 1e4)";
   for (const std::string& more : {std::string(), std::string(R"(, "yield_stress": "infinity")")}) {
     const Scene s = parse_scene(with("/materials/0", "{" + elastic + more + "}"));
-    EXPECT_EQ(s.materials[0].herschel_bulkley.yield_stress, std::numeric_limits<double>::infinity());
-    EXPECT_EQ(s.materials[0].herschel_bulkley.flow_index, 1);
+    EXPECT_EQ(s.materials[0].herschel_bulkley().yield_stress, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(s.materials[0].herschel_bulkley().flow_index, 1);
     EXPECT_NE(to_json(s).find(R"("yield_stress": "infinity")"), std::string::npos);
   }
 }

@@ -32,7 +32,10 @@ class Referee {
 
 TEST(Schema, AcceptsEveryExampleAndEveryCanonicalText) {
   Referee referee;
-  EXPECT_TRUE(referee.accepts(small_scene()));
+  for (const std::string& text : {small_scene(), mlsrk_scene()}) {
+    EXPECT_TRUE(referee.accepts(text));
+    EXPECT_TRUE(referee.accepts(to_json(parse_scene(text))));
+  }
   for (const auto& [name, text] : example_scenes()) {
     EXPECT_TRUE(referee.accepts(text)) << name;
     EXPECT_TRUE(referee.accepts(to_json(parse_scene(text)))) << name;
@@ -66,6 +69,11 @@ TEST(Schema, RefusesWhatTheReaderRefusesOfASingleField) {
       {"/materials/0/yield_stress", "\"none\""},
       {"/materials/0/tear_threshold", "0"},
       {"/materials/0/recovery_time", "\"never\""},
+      {"/materials/0/cohesion", "1"},
+      {"/materials/0/model", "\"snow\""},
+      {"/materials/0", R"({"name": "foam", "model": "liquid", "density": 1})"},
+      {"/materials/0", R"({"name": "foam", "density": 1, "bulk_modulus": 1})"},
+      {"/solver", "\"sph\""},
       {"/bodies/0/name", "\"\""},
       {"/bodies/0/shape/type", "\"spere\""},
       {"/bodies/0/shape/radius", "0"},
@@ -79,6 +87,7 @@ TEST(Schema, RefusesWhatTheReaderRefusesOfASingleField) {
       {"/numerics", "{\"kernel\": \"linear\"}"},
       {"/numerics", "{\"flip_blend\": 1.01}"},
       {"/numerics", "{\"safety_factor\": 0}"},
+      {"/numerics", R"({"mlsrk": {"basis": "cubic"}})"},
       {"/look", "{\"background\": [0, 0, 2]}"},
       {"/look", "{\"camera\": {\"field_of_view_deg\": 0}}"},
       {"/output", "{\"width\": 100000}"},

@@ -1,9 +1,9 @@
-#include "sim/mpm/snapshot.h"
+#include "sim/snapshot.h"
 
 #include <algorithm>
 #include <array>
 
-namespace lather::mpm {
+namespace lather {
 namespace {
 
 /// Where a point stands in its set.
@@ -34,12 +34,13 @@ double scalar_of(const ParticleSet<Real>& set, const Material& material, const S
                  const std::string& name) {
   const auto lane = static_cast<int>(s.lane);
   if (name == "speed") return set.velocity(s.tile, lane).norm();
-  if (name == "J")
-    return 1 + static_cast<double>(set.template values<Real>(s.tile, Field::kVolumeChange)[lane]);
-  if (name == "plastic_strain")
-    return static_cast<double>(set.template values<Real>(s.tile, Field::kPlasticStrain)[lane]);
-  if (!set.layout().has(Field::kPlasticity)) return 0;  // a material that does not tear
-  const Real plasticity = set.template values<Real>(s.tile, Field::kPlasticity)[lane];
+  if (name == "J") return 1 + set.volume_change(s.tile, lane);
+  // What a material's law does not keep is 0.
+  const auto kept = [&](Field f) {
+    return set.layout().has(f) ? set.template values<Real>(s.tile, f)[lane] : Real(0);
+  };
+  if (name == "plastic_strain") return static_cast<double>(kept(Field::kPlasticStrain));
+  const Real plasticity = kept(Field::kPlasticity);
   if (name == "plasticity") return static_cast<double>(plasticity);
   return plasticity > static_cast<Real>(material.tearing.tear_threshold) ? 1 : 0;
 }
@@ -47,26 +48,27 @@ double scalar_of(const ParticleSet<Real>& set, const Material& material, const S
 }  // namespace
 
 template <class Real>
-Frame Snapshot::take(const State<Real>& state, const Plan& plan, int index) const {
-  Frame f = scenery_.frame(index, state.time);
+Frame Snapshot::take(const std::vector<ParticleSet<Real>>& sets, double time, const Plan& plan,
+                     int index) const {
+  Frame f = scenery_.frame(index, time);
   for (const std::string& name : plan.scalars)
     f.points.scalars.push_back({name, name == "speed" ? "m/s" : "1", {}});
-  for (std::size_t m = 0; m < state.sets.size(); ++m) {
-    for (const Slot& s : slots_by_id(state.sets[m])) {
+  for (std::size_t m = 0; m < sets.size(); ++m) {
+    for (const Slot& s : slots_by_id(sets[m])) {
       const auto lane = static_cast<int>(s.lane);
-      f.points.position.push_back(as_float(state.sets[m].position(s.tile, lane)));
-      f.points.velocity.push_back(as_float(state.sets[m].velocity(s.tile, lane)));
+      f.points.position.push_back(as_float(sets[m].position(s.tile, lane)));
+      f.points.velocity.push_back(as_float(sets[m].velocity(s.tile, lane)));
       f.points.id.push_back(s.id);
       f.points.material.push_back(static_cast<std::uint8_t>(m));
       for (PointScalar& scalar : f.points.scalars)
         scalar.values.push_back(
-            static_cast<float>(scalar_of(state.sets[m], plan.scene.materials[m], s, scalar.name)));
+            static_cast<float>(scalar_of(sets[m], plan.scene.materials[m], s, scalar.name)));
     }
   }
   return f;
 }
 
-template Frame Snapshot::take(const State<float>&, const Plan&, int) const;
-template Frame Snapshot::take(const State<double>&, const Plan&, int) const;
+template Frame Snapshot::take(const std::vector<ParticleSet<float>>&, double, const Plan&, int) const;
+template Frame Snapshot::take(const std::vector<ParticleSet<double>>&, double, const Plan&, int) const;
 
-}  // namespace lather::mpm
+}  // namespace lather

@@ -1,0 +1,111 @@
+#include "sim/frame_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "sim/plan/step_bound.h"
+
+namespace lather {
+
+std::string with_unit(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.4g%s%s", value, *unit != 0 ? " " : "", unit);
+  return text;
+}
+
+FrameLoop::FrameLoop(const Plan& plan, int threads) : plan_(plan), threads_(threads) {
+  report_.scene_name = plan.scene.name;
+  report_.scene_hash = scene_hash(plan.scene);
+  report_.version = version();
+  report_.kernel_level = to_string(plan.choices.kernel_level);
+  report_.threads = threads;
+}
+
+bool FrameLoop::step_to_frame(int index, const std::function<bool(const Progress&)>& heartbeat) {
+  if (index <= measured_frame_) return true;
+  const double target = index / plan_.scene.frame_rate;
+  while (moment().time < target) {
+    before_step();
+    const double left = target - moment().time;
+    const double steps = steps_for(left, step_limit());
+    step(left / steps);
+    if (steps == 1) set_time(target);
+    after_step();
+    if (!heartbeat({index, moment().time, last_step_, moment().step})) return false;
+  }
+  record(index);
+  return true;
+}
+
+void FrameLoop::step(double dt) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t points = point_count();
+  const Moment before = moment();
+  const StepExtremes seen = take_step(dt);
+  check(seen, before, dt);
+  last_step_ = dt;
+  report_.smallest_time_step = report_.steps == 0 ? dt : std::min(report_.smallest_time_step, dt);
+  report_.largest_time_step = std::max(report_.largest_time_step, dt);
+  report_.largest_cfl = std::max(report_.largest_cfl, seen.largest_cells);
+  report_.steps = moment().step;
+  report_.point_steps += points;
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  report_.wall_seconds += took.count();
+}
+
+/// Throws when the state is no longer sound.
+void FrameLoop::check(const StepExtremes& seen, const Moment& start, double dt) const {
+  SimulationError::Details d;
+  d.step = static_cast<long long>(start.step);
+  d.time = start.time;
+  if (!seen.finite) {
+    d.kind = "non-finite";
+    d.quantity = "a point's velocity, J, elastic strain or deformation";
+    d.value = "not a finite number";
+  } else if (seen.collapsed) {
+    d.kind = "runaway";
+    d.quantity = "a point's volume ratio J";
+    d.value = "zero or negative";
+  } else if (seen.largest_cells > 1) {
+    d.kind = "runaway";
+    d.quantity = "a point's speed";
+    d.value =
+        with_unit(seen.max_speed, "m/s") + " (" + with_unit(seen.largest_cells, "cells in one step") + ")";
+  } else {
+    return;
+  }
+  d.advice = advice(dt);
+  throw SimulationError(d);
+}
+
+std::string FrameLoop::advice(double dt) const {
+  const Numerics& n = plan_.scene.numerics;
+  return n.time_step > 0 ? "Lower /numerics/time_step from " + with_unit(dt, "s") + "; the step bound is " +
+                               with_unit(plan_.step_bound, "s") + "."
+                         : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
+}
+
+void FrameLoop::record(int index) {
+  FrameMeasure m = measure_state(index);
+  m.frame = index;
+  m.time = moment().time;
+  m.step = moment().step;
+  report_.frames.push_back(m);
+  measured_frame_ = index;
+  report_.simulated_time = moment().time;
+  report_.warnings = warnings();
+  if (report_.wall_seconds > 0)
+    report_.point_steps_per_second = static_cast<double>(report_.point_steps) / report_.wall_seconds;
+  report_.stages.clear();
+  for (const std::string& name : plan_.stages)
+    for (int s = 0; s < kStageCount; ++s)
+      if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
+        report_.stages.push_back({name, clock().seconds(static_cast<Stage>(s))});
+}
+
+std::string FrameLoop::checkpoint_key() const {
+  return report_.scene_hash + ' ' + report_.kernel_level + ' ' + report_.version;
+}
+
+}  // namespace lather

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim/material/drucker_prager_constants.h"
+#include "sim/material/equation_of_state_constants.h"
+#include "sim/material/herschel_bulkley_constants.h"
+#include "sim/material/neo_hookean_constants.h"
+#include "sim/material/newtonian_constants.h"
+#include "sim/material/snow_constants.h"
+#include "sim/plan/tile_layout.h"
+
+/// The border between the solver and its kernels, which are compiled once per instruction set: plain structs
+/// and pointers, no Eigen type, no standard container.
+///
+/// Points of all materials lie in a cloud (cloud.h), sorted by cell, in tiles of 16. A kernel works on one
+/// tile of points, its lanes, and meets their neighbours one after the other in a fixed order, so that
+/// nothing depends on the number of threads. Lengths are divided by the kernel's scale a, volumes by a^dim.
+///
+/// "MLSRK": "A Moving Least Square Reproducing Kernel Particle Method for Unified Multiphase Continuum
+/// Simulation". Basis h of N polynomials, kernel Phi, xi = (x_j - x_i)/a:
+///
+///   M_i = sum_j h(xi) h(xi)^T Phi(xi) V_j + R,  b_i = M_i^-1 h(0)      [MLSRK eq. 8, 32]
+///   N_j(x_i) = b_i . h(xi) Phi(xi) V_j                                 [MLSRK eq. 8]
+///   a d_B N_j(x_i) = (c_iB . h(xi) Phi(xi) - b_i . h(xi) d_B Phi(xi)) V_j  [MLSRK Appendix A]
+namespace lather::mlsrk {
+
+/// What all points share.
+template <class Real>
+struct ShapeConstants {
+  Real regularization;           ///< r on all terms but the constant, dimensionless
+  Real constant_regularization;  ///< r on the constant, dimensionless
+  Real smallest_pivot;           ///< a moment matrix with a smaller one takes this as its r
+};
+
+/// The 16 points of a tile: x y z over a from the tile's origin, V/a^dim; [4][16].
+template <class Real>
+struct Targets {
+  const Real* place;
+};
+
+/// Points within reach of a tile, in a fixed order.
+template <class Real>
+struct Candidates {
+  const Real* place;          ///< four reals each, as in Targets
+  const std::uint32_t* slot;  ///< where they stand in the cloud
+  std::int32_t count;
+};
+
+/// Rows of four: velocity (m/s), mass (kg).
+inline constexpr int kVelocityReals = 4;
+/// Rows of eight: V sigma, xx yy zz xy xz yz (Pa m^3), 0, mass (kg).
+inline constexpr int kStressReals = 8;
+
+/// What a step of momentum() needs.
+template <class Real>
+struct MomentumStep {
+  Real dt;             ///< s
+  Real gravity[3];     ///< m/s^2
+  Real inverse_scale;  ///< 1/a, 1/m
+  bool own_mass;       ///< forces are divided by a point's own mass, not by the lumped one
+};
+
+/// Kernels by dimension, basis and shape of Phi. Rows are arrays of structs: one row a slot of the cloud.
+template <class Real>
+struct Kernels {
+  std::int32_t shape_reals;  ///< of a shape row: b, then c of each axis
+  std::int32_t force_reals;  ///< of a force row
+
+  /// [shape functions] Writes the tile's 16 shape rows, `crowding`, sum_j Phi, and `fallen`, 1 where a moment
+  /// matrix had to be regularised beyond the constants; both [16].
+  void (*shape_functions)(const ShapeConstants<Real>&, const Targets<Real>&, const Candidates<Real>&,
+                          Real* shape, Real* crowding, Real* fallen);
+
+  /// Writes a tile's 16 force rows from its shape and stress rows: b; sum_B V sigma_AB c_B for each term of
+  /// the basis; V sigma; mass.
+  void (*prepare_forces)(const Real* shape, const Real* stress, Real* force);
+
+  /// [momentum] Adds a step's change to the tile's 16 velocity rows [MLSRK eq. 11]; `force` are the rows of
+  /// the whole cloud. `light`, [16]: 1 where the lumped mass is below a tenth of the own one, which then
+  /// counts.
+  void (*momentum)(const MomentumStep<Real>&, const Targets<Real>&, const Candidates<Real>&,
+                   const Real* force, Real* velocity, Real* light);
+
+  /// [velocity gradients] `gradient`: [dim dim][16], row by row, 1/s [MLSRK eq. 18]; `smooth`: [dim][16],
+  /// u^h(x_i) - u_i, m/s [MLSRK eq. 12]; `own` are the tile's shape and velocity rows, `velocity` those of
+  /// the whole cloud.
+  void (*gradients)(const ShapeConstants<Real>&, Real inverse_scale, const Targets<Real>&,
+                    const Candidates<Real>&, const Real* own_shape, const Real* own_velocity,
+                    const Real* velocity, Real* gradient, Real* smooth);
+};
+
+/// One material's constants in the run's precision; those of other laws than its own are not read.
+template <class Real>
+struct MaterialConstants {
+  Real volume;     ///< of each point at rest, m^dim
+  Real mass;       ///< of each point, kg
+  bool corrected;  ///< volumes from neighbours, not from F [MLSRK eq. 19]
+  HerschelBulkleyConstants<Real> herschel_bulkley;
+  NeoHookeanConstants<Real> elastic;
+  DruckerPragerConstants<Real> drucker_prager;
+  SnowConstants<Real> snow;
+  EquationOfStateConstants<Real> liquid;
+  NewtonianConstants<Real> viscous;
+};
+
+/// A tile of one material's set.
+template <class Real>
+struct SetTile {
+  std::byte* bytes;
+  const TileLayout* layout;
+  const MaterialConstants<Real>* material;
+};
+
+/// A law on tiles of its material's points.
+template <class Real>
+struct LawKernels {
+  /// [shape functions] J - 1, [16].
+  void (*volume_changes)(const SetTile<Real>&, Real* change);
+  /// [stress] Gives the points the volumes that their neighbours leave them, `change` = V/V0 - 1, [16]
+  /// [MLSRK eq. 19]; null for laws that never do.
+  void (*correct)(const SetTile<Real>&, const Real* change);
+  /// [stress] 16 stress rows. Returns the largest factor by which moduli are hardened.
+  Real (*stress)(const SetTile<Real>&, Real* rows);
+  /// [deformation] F' = (I + dt L) F [MLSRK eq. 17], return mapping; `gradient` is L, [dim dim][16].
+  void (*deform)(const SetTile<Real>&, Real dt, const Real* gradient);
+};
+
+/// What positions() needs.
+template <class Real>
+struct MoveStep {
+  Real dt;     ///< s
+  Real cell;   ///< spacing, m
+  Real blend;  ///< 1 - alpha_b of this step
+  Real phase;  ///< of rounding positions, see move() in sim/particles/tile.h
+};
+
+/// What positions() saw of a tile.
+struct TileExtremes {
+  double largest_cells = 0;  ///< largest |u| dt over the spacing along an axis
+  double speed_squared = 0;  ///< largest, (m/s)^2
+  bool finite = true;
+  bool collapsed = false;  ///< some J <= 0
+};
+
+inline constexpr int kLaws = 5;  ///< alternatives of Law
+
+/// [dimension - 2][basis][radial]; `scalar`: the same kernels one point at a time, for tests.
+template <class Real>
+struct KernelTable {
+  LawKernels<Real> laws[2][kLaws];  ///< [dimension - 2][index of the law]
+  /// [positions] x += dt u, then u += blend (u^h - u) [MLSRK eq. 12]; `velocity`: [dim][16] of u,
+  /// `smooth`: [dim][16] of u^h - u. [dimension - 2]
+  TileExtremes (*positions[2])(const SetTile<Real>&, const MoveStep<Real>&, const Real* velocity,
+                               const Real* smooth);
+  Kernels<Real> wide[2][3][2];
+  Kernels<Real> scalar[2][3][2];
+};
+
+}  // namespace lather::mlsrk

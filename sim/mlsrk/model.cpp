@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include "sim/material/drucker_prager_make.h"
+#include "sim/material/equation_of_state_make.h"
+#include "sim/material/herschel_bulkley_make.h"
+#include "sim/material/neo_hookean_make.h"
+#include "sim/material/newtonian_make.h"
+#include "sim/material/snow_make.h"
+#include "sim/mlsrk/step.h"
+
+namespace lather::mlsrk {
+namespace {
+
+/// Pivots of a moment matrix over the kernel's own moments, which are of order 1, below which its inverse has
+/// lost half its digits.
+template <class Real>
+constexpr Real kSmallestPivot = sizeof(Real) == 4 ? Real(3e-4) : Real(1e-8);
+
+template <class Real>
+struct MakeConstants {
+  int dimension;
+  MaterialConstants<Real>& to;
+
+  void operator()(const HerschelBulkleyParameters& p) const {
+    to.herschel_bulkley = herschel_bulkley_constants<Real>(p);
+  }
+  void operator()(const NeoHookeanParameters& p) const {
+    to.elastic = neo_hookean_constants<Real>(p.elastic);
+    to.viscous = newtonian_constants<Real>(p.viscous);
+  }
+  void operator()(const DruckerPragerParameters& p) const {
+    to.elastic = neo_hookean_constants<Real>(p.elastic);
+    to.viscous = newtonian_constants<Real>(p.viscous);
+    to.drucker_prager = drucker_prager_constants<Real>(p, dimension);
+  }
+  void operator()(const SnowParameters& p) const {
+    to.elastic = neo_hookean_constants<Real>(p.elastic);
+    to.snow = snow_constants<Real>(p);
+  }
+  void operator()(const LiquidParameters& p) const {
+    to.liquid = equation_of_state_constants<Real>(p);
+    to.viscous = newtonian_constants<Real>(p.viscous);
+  }
+};
+
+template <class Real>
+MaterialConstants<Real> material_constants(const Scene& scene, const Material& material, bool correctable) {
+  MaterialConstants<Real> c{};
+  c.volume = static_cast<Real>(scene.point_volume());
+  c.mass = static_cast<Real>(material.density() * scene.point_volume());
+  c.corrected = correctable && scene.numerics.mlsrk.volume_correction;
+  std::visit(MakeConstants<Real>{scene.dimension, c}, material.law);
+  return c;
+}
+
+/// sum_j Phi at a point of a lattice that fills its whole support, by the kernel itself.
+template <class Real>
+Real full_lattice(const Scene& scene, const Kernels<Real>& kernels, const ShapeConstants<Real>& constants) {
+  const double step = 2 / scene.numerics.mlsrk.support_radius;  // d/a
+  constexpr int kReach = 4;                                     // the largest support radius
+  std::vector<Real> place;
+  const int across = scene.dimension == 3 ? kReach : 0;
+  for (int x = -kReach; x <= kReach; ++x)
+    for (int y = -kReach; y <= kReach; ++y)
+      for (int z = -across; z <= across; ++z)
+        for (const double c : {x * step, y * step, z * step, 1.0}) place.push_back(static_cast<Real>(c));
+  const std::vector<Real> targets(4 * kTile, Real(0));
+  std::vector<Real> shape(static_cast<std::size_t>(kernels.shape_reals) * kTile);
+  Real crowding[kTile];
+  Real fallen[kTile];
+  kernels.shape_functions(constants, {targets.data()},
+                          {place.data(), nullptr, static_cast<std::int32_t>(place.size() / 4)}, shape.data(),
+                          crowding, fallen);
+  return crowding[0];
+}
+
+}  // namespace
+
+template <class Real>
+Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(plan.scene)), walls(plan.scene) {
+  const Mlsrk& n = scene.numerics.mlsrk;
+  const KernelTable<Real>& table = kernel_table<Real>(plan.choices.kernel_level);
+  const auto dimension = static_cast<std::size_t>(scene.dimension - 2);
+  kernels = table.wide[dimension][static_cast<int>(n.basis)][n.kernel_shape == KernelShape::kRadial ? 1 : 0];
+  positions = table.positions[dimension];
+  for (const Material& m : scene.materials) {
+    laws.push_back(table.laws[dimension][m.law.index()]);
+    materials.push_back(material_constants<Real>(scene, m, laws.back().correct != nullptr));
+  }
+  shape.regularization = static_cast<Real>(n.regularization);
+  shape.constant_regularization = static_cast<Real>(n.regularize_constant ? n.regularization : 0);
+  shape.smallest_pivot = kSmallestPivot<Real>;
+  lattice_crowding = full_lattice(scene, kernels, shape);
+}
+
+template struct Model<float>;
+template struct Model<double>;
+
+}  // namespace lather::mlsrk

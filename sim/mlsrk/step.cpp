@@ -1,0 +1,299 @@
+#include "sim/mlsrk/step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/math/parallel.h"
+
+namespace lather::mlsrk {
+
+template <class Real>
+StepExtremes Stepper<Real>::step(State<Real>& state, double dt) {
+  sort_when_drifted(state);
+  obstacles_.place(state.time, dt);
+  find_neighbours(state);
+  compute_shape_functions(state);                      // [MLSRK eq. 8, 32]
+  compute_stress(state);                               // [MLSRK eq. 19, 22, 23]
+  update_velocities(state, dt);                        // [MLSRK eq. 11]
+  compute_gradients();                                 // [MLSRK eq. 12, 18]
+  const StepExtremes seen = update_points(state, dt);  // [MLSRK eq. 17, 24-29]
+  state.drift += seen.largest_cells;
+  state.max_speed = seen.max_speed;
+  state.time += dt;
+  ++state.step;
+  return seen;
+}
+
+template <class Real>
+Stepper<Real>::Stepper(const Model<Real>& model, int threads)
+    : model_(model),
+      threads_(threads),
+      obstacles_(model.scene, model.scene.spacing),
+      cloud_(model.scene),
+      clock_(threads),
+      scratch_(static_cast<std::size_t>(threads)) {}
+
+template <class Real>
+void Stepper<Real>::sort_when_drifted(State<Real>& state) {
+  // Tiles that are not there yet (after a restore) are made anew from the sets as they were sorted.
+  const bool sort = !state.sorted || state.drift > kDriftMargin;
+  if (!sort && !cloud_.empty()) return;
+  clock_.time(Stage::kSort, [&] {
+    if (sort) {
+      for (std::size_t m = 0; m < state.sets.size(); ++m) {
+        const Departures left = state.sets[m].sort(model_.bounds, threads_);
+        state.left[m].points += left.points;
+        state.left[m].shares += left.shares;
+        state.sets[m].order_within_blocks(threads_);
+      }
+      state.sorted = true;
+      state.drift = 0;
+    }
+    cloud_.build(state.sets, model_.bounds);
+    const std::size_t slots = cloud_.slots();
+    const auto dim = static_cast<std::size_t>(model_.scene.dimension);
+    velocity_.assign(slots * kVelocityReals, Real(0));
+    shape_.assign(slots * static_cast<std::size_t>(model_.kernels.shape_reals), Real(0));
+    stress_.assign(slots * kStressReals, Real(0));
+    force_.assign(slots * static_cast<std::size_t>(model_.kernels.force_reals), Real(0));
+    crowding_.assign(slots, Real(0));
+    gradient_.assign(slots * dim * dim, Real(0));
+    smooth_.assign(slots * dim, Real(0));
+    set_tiles_.clear();
+    for (std::uint32_t s = 0; s < state.sets.size(); ++s)
+      for (std::uint32_t t = 0; t < state.sets[s].tiles(); ++t) set_tiles_.push_back({s, t});
+  });
+}
+
+template <class Real>
+SetTile<Real> Stepper<Real>::set_tile(State<Real>& state, const TileOfSet& at) const {
+  ParticleSet<Real>& set = state.sets[at.set];
+  return {set.tile(at.tile), &set.layout(), &model_.materials[at.set]};
+}
+
+template <class Real>
+template <class Visit>
+void Stepper<Real>::for_points(const State<Real>& state, const TileOfSet& at, const Visit& visit) const {
+  const std::uint32_t* ids = state.sets[at.set].template values<std::uint32_t>(at.tile, Field::kId);
+  for (int lane = 0; lane < kTile; ++lane)
+    if (ids[lane] != kNoPoint) visit(lane, cloud_.slot_of(at.set, at.tile, lane));
+}
+
+template <class Real>
+void Stepper<Real>::find_neighbours(State<Real>& state) {
+  clock_.time(Stage::kNeighbours, [&] { cloud_.refresh(state.sets, threads_); });
+  parallel_for(threads_, static_cast<std::int64_t>(set_tiles_.size()), 64, [&](std::int64_t index) {
+    clock_.time(Stage::kNeighbours, [&] {
+      const TileOfSet& at = set_tiles_[static_cast<std::size_t>(index)];
+      const SetTile<Real> tile = set_tile(state, at);
+      Real change[kTile];
+      model_.laws[at.set].volume_changes(tile, change);
+      for_points(state, at, [&](int lane, std::uint32_t slot) {
+        // What bears no tension and takes its volume from its neighbours has empty space beside it where that
+        // is larger than at rest, and its own volume is the latter.
+        const Real own = tile.material->corrected ? std::min(change[lane], Real(0)) : change[lane];
+        cloud_.put_volume(slot, tile.material->volume * (1 + own));
+        Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
+        for (int a = 0; a < model_.scene.dimension; ++a)
+          row[a] = state.sets[at.set].template values<Real>(at.tile, Field::kVelocity, a)[lane];
+        row[3] = tile.material->mass;
+      });
+    });
+  });
+}
+
+template <class Real>
+void Stepper<Real>::compute_shape_functions(State<Real>& state) {
+  const auto reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
+  const auto one_tile = [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    std::uint64_t regularized = 0;
+    clock_.time(Stage::kShapeFunctions, [&] {
+      Real place[4 * kTile];
+      Real fallen[kTile];
+      cloud_.load_targets(t, place);
+      model_.kernels.shape_functions(model_.shape, {place}, cloud_.candidates(t, scratch().candidates),
+                                     shape_.data() + t * reals, crowding_.data() + t * kTile, fallen);
+      for (int i = 0; i < cloud_.tiles()[t].count; ++i) regularized += fallen[i] != Real(0) ? 1 : 0;
+    });
+    return regularized;
+  };
+  state.regularized +=
+      parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), std::uint64_t{0}, one_tile,
+                    [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
+}
+
+template <class Real>
+void Stepper<Real>::compute_stress(State<Real>& state) {
+  const auto stress_of = [&](std::int64_t index) {
+    const TileOfSet& at = set_tiles_[static_cast<std::size_t>(index)];
+    double stiffest = 1;
+    clock_.time(Stage::kStress, [&] {
+      const SetTile<Real> tile = set_tile(state, at);
+      if (tile.material->corrected) {
+        Real change[kTile] = {};
+        for_points(state, at, [&](int lane, std::uint32_t slot) {
+          change[lane] = (model_.lattice_crowding - crowding_[slot]) / crowding_[slot];
+        });
+        model_.laws[at.set].correct(tile, change);
+      }
+      Real rows[kTile * kStressReals];
+      stiffest = static_cast<double>(model_.laws[at.set].stress(tile, rows));
+      for_points(state, at, [&](int lane, std::uint32_t slot) {
+        std::copy_n(rows + lane * kStressReals, kStressReals,
+                    stress_.data() + std::size_t{slot} * kStressReals);
+      });
+    });
+    return stiffest;
+  };
+  state.stiffest = parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), 1.0, stress_of,
+                                 [](double& most, double part) { most = std::max(most, part); });
+  const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
+  const auto force_reals = static_cast<std::size_t>(model_.kernels.force_reals) * kTile;
+  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 64, [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    clock_.time(Stage::kStress, [&] {
+      model_.kernels.prepare_forces(shape_.data() + t * shape_reals,
+                                    stress_.data() + t * kTile * kStressReals,
+                                    force_.data() + t * force_reals);
+    });
+  });
+}
+
+template <class Real>
+void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
+  const Scene& scene = model_.scene;
+  MomentumStep<Real> step{};
+  step.dt = static_cast<Real>(dt);
+  for (int a = 0; a < 3; ++a) step.gravity[a] = static_cast<Real>(scene.gravity[a]);
+  step.inverse_scale = static_cast<Real>(1 / cloud_.scale());
+  step.own_mass = scene.numerics.mlsrk.inertial_mass == InertialMass::kOwn;
+  struct Seen {
+    double change_squared = 0;
+    std::uint64_t light = 0;
+  };
+  const auto one_tile = [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    Seen seen;
+    clock_.time(Stage::kMomentum, [&] { seen.change_squared = accelerate(t, step, scratch(), seen.light); });
+    clock_.time(Stage::kParticleCollisions, [&] { resolve_collisions(t, scratch()); });
+    return seen;
+  };
+  const Seen seen = parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), Seen{},
+                                  one_tile, [](Seen& sum, const Seen& part) {
+                                    sum.change_squared = std::max(sum.change_squared, part.change_squared);
+                                    sum.light += part.light;
+                                  });
+  state.light += seen.light;
+  state.max_acceleration = std::sqrt(seen.change_squared) / dt;
+}
+
+/// Returns the largest squared change of a velocity, (m/s)^2.
+template <class Real>
+double Stepper<Real>::accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch,
+                                 std::uint64_t& light) {
+  Real place[4 * kTile];
+  Real too_light[kTile];
+  Real before[kTile * kVelocityReals];
+  Real* rows = velocity_.data() + tile * kTile * kVelocityReals;
+  std::copy_n(rows, kTile * kVelocityReals, before);
+  cloud_.load_targets(tile, place);
+  model_.kernels.momentum(step, {place}, cloud_.candidates(tile, scratch.candidates), force_.data(), rows,
+                          too_light);
+  double largest = 0;
+  for (int i = 0; i < cloud_.tiles()[tile].count; ++i) {
+    light += too_light[i] != Real(0) ? 1 : 0;
+    double squared = 0;
+    for (int a = 0; a < 3; ++a) {
+      const auto change = static_cast<double>(rows[i * kVelocityReals + a] - before[i * kVelocityReals + a]);
+      squared += change * change;
+    }
+    largest = std::max(largest, squared);
+  }
+  return largest;
+}
+
+template <class Real>
+void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
+  const Box3 box = cloud_.box(tile);
+  obstacles_.find_near(box.center(), 0.5 * box.extent().norm(), scratch.near);
+  const bool walls = model_.walls.near(box.min, box.max, 0);
+  if (scratch.near.empty() && !walls) return;
+  static const WatchedContacts nobody;
+  const ContactSink sink(nobody, nullptr);
+  const auto first = static_cast<std::uint32_t>(tile * kTile);
+  for (std::uint32_t slot = first; slot < first + static_cast<std::uint32_t>(cloud_.tiles()[tile].count);
+       ++slot) {
+    Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
+    Vec3 v = Vec3::Zero();
+    for (int a = 0; a < model_.scene.dimension; ++a) v[a] = static_cast<double>(row[a]);
+    const Vec3 x = cloud_.position(slot);
+    const auto mass = static_cast<double>(row[3]);
+    bool changed = obstacles_.resolve(scratch.near, x, v, mass, sink);
+    if (walls) changed = model_.walls.resolve(x, v, mass, sink) || changed;
+    if (!changed) continue;
+    for (int a = 0; a < model_.scene.dimension; ++a) row[a] = static_cast<Real>(v[a]);
+  }
+}
+
+template <class Real>
+void Stepper<Real>::compute_gradients() {
+  const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
+  const auto dim = static_cast<std::size_t>(model_.scene.dimension);
+  const auto inverse_scale = static_cast<Real>(1 / cloud_.scale());
+  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 4, [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    clock_.time(Stage::kVelocityGradients, [&] {
+      Real place[4 * kTile];
+      cloud_.load_targets(t, place);
+      model_.kernels.gradients(model_.shape, inverse_scale, {place},
+                               cloud_.candidates(t, scratch().candidates), shape_.data() + t * shape_reals,
+                               velocity_.data() + t * kTile * kVelocityReals, velocity_.data(),
+                               gradient_.data() + t * dim * dim * kTile, smooth_.data() + t * dim * kTile);
+    });
+  });
+}
+
+template <class Real>
+StepExtremes Stepper<Real>::update_points(State<Real>& state, double dt) {
+  const Mlsrk& n = model_.scene.numerics.mlsrk;
+  MoveStep<Real> move{};
+  move.dt = static_cast<Real>(dt);
+  move.cell = static_cast<Real>(model_.scene.spacing);
+  move.blend = static_cast<Real>(1 - std::pow(n.velocity_blend, dt / n.velocity_blend_reference_step));
+  move.phase = rounding_phase<Real>(state.step);
+  const int dim = model_.scene.dimension;
+  const auto one_tile = [&](std::int64_t index) {
+    const TileOfSet& at = set_tiles_[static_cast<std::size_t>(index)];
+    const SetTile<Real> tile = set_tile(state, at);
+    Real gradient[9 * kTile] = {};
+    Real smooth[3 * kTile] = {};
+    Real velocity[3 * kTile] = {};
+    TileExtremes seen;
+    clock_.time(Stage::kDeformation, [&] {
+      for_points(state, at, [&](int lane, std::uint32_t slot) {
+        const std::size_t t = slot / kTile;
+        const std::size_t i = slot % kTile;
+        const auto reals = static_cast<std::size_t>(dim);
+        for (int c = 0; c < dim * dim; ++c)
+          gradient[c * kTile + lane] =
+              gradient_[(t * reals * reals + static_cast<std::size_t>(c)) * kTile + i];
+        for (int a = 0; a < dim; ++a) {
+          smooth[a * kTile + lane] = smooth_[(t * reals + static_cast<std::size_t>(a)) * kTile + i];
+          velocity[a * kTile + lane] =
+              velocity_[std::size_t{slot} * kVelocityReals + static_cast<std::size_t>(a)];
+        }
+      });
+      model_.laws[at.set].deform(tile, move.dt, gradient);
+    });
+    clock_.time(Stage::kPositions, [&] { seen = model_.positions(tile, move, velocity, smooth); });
+    return StepExtremes{seen.largest_cells, std::sqrt(seen.speed_squared), seen.finite, seen.collapsed};
+  };
+  return parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), StepExtremes{}, one_tile,
+                       [](StepExtremes& sum, const StepExtremes& part) { sum.include(part); });
+}
+
+template class Stepper<float>;
+template class Stepper<double>;
+
+}  // namespace lather::mlsrk

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/collide/obstacles.h"
+#include "sim/frame_loop.h"
+#include "sim/mlsrk/cloud.h"
+#include "sim/mlsrk/levels.h"
+#include "sim/particles/particle_set.h"
+
+namespace lather::mlsrk {
+
+/// What never changes during a run: the scene as the step needs it, in the run's precision.
+template <class Real>
+struct Model {
+  explicit Model(const Plan& plan);
+
+  Scene scene;
+  Kernels<Real> kernels;
+  TileExtremes (*positions)(const SetTile<Real>&, const MoveStep<Real>&, const Real*, const Real*);
+  std::vector<MaterialConstants<Real>> materials;
+  std::vector<LawKernels<Real>> laws;  ///< one a material
+  ShapeConstants<Real> shape;
+  Real lattice_crowding;  ///< sum_j Phi of a point inside a full lattice: V/V0 = 1 [MLSRK eq. 19]
+  CellBounds bounds;
+  Walls walls;
+};
+
+/// What a checkpoint saves.
+template <class Real>
+struct State {
+  std::vector<ParticleSet<Real>> sets;  ///< one a material
+  std::uint64_t step = 0;               ///< steps done
+  double time = 0;                      ///< s
+  double drift = 0;                     ///< spacings, most that any point can have moved since the last sort
+  bool sorted = false;
+  // Of the last step, for the length of the next one:
+  double max_speed = 0;         ///< m/s
+  double max_acceleration = 0;  ///< m/s^2, by forces
+  double stiffest = 1;          ///< largest factor by which moduli are hardened
+  // Since the start:
+  std::uint64_t regularized = 0;  ///< moment matrices that needed more than the constants' r
+  std::uint64_t light = 0;        ///< lumped masses below a tenth of the point's own
+  std::vector<Departures> left;   ///< one a material: left an open domain
+};
+
+/// One step of the method [MLSRK Algorithm 1].
+template <class Real>
+class Stepper {
+ public:
+  Stepper(const Model<Real>& model, int threads);
+
+  /// Advances `state` by dt (s). The result says whether the state is still sound; the caller decides.
+  StepExtremes step(State<Real>& state, double dt);
+
+  /// Sorts the points and makes their tiles anew if some may have left the reach that the tiles allow for;
+  /// counts those that left an open domain.
+  void sort_when_drifted(State<Real>& state);
+
+  /// Drops the tiles, so that the next step makes them anew; after a restore.
+  void forget_tiles() { cloud_.clear(); }
+
+  [[nodiscard]] const StageClock& clock() const { return clock_; }
+
+ private:
+  /// Memory of one thread.
+  struct Scratch {
+    typename Cloud<Real>::Scratch candidates;
+    std::vector<std::uint32_t> near;
+  };
+  /// One of the sets' tiles.
+  struct TileOfSet {
+    std::uint32_t set;
+    std::uint32_t tile;
+  };
+
+  void find_neighbours(State<Real>& state);
+  void compute_shape_functions(State<Real>& state);
+  void compute_stress(State<Real>& state);
+  void update_velocities(State<Real>& state, double dt);
+  double accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch, std::uint64_t& light);
+  void resolve_collisions(std::size_t tile, Scratch& scratch);
+  void compute_gradients();
+  StepExtremes update_points(State<Real>& state, double dt);
+
+  [[nodiscard]] SetTile<Real> set_tile(State<Real>& state, const TileOfSet& at) const;
+  /// Calls visit(lane, slot) for the points of a set's tile.
+  template <class Visit>
+  void for_points(const State<Real>& state, const TileOfSet& at, const Visit& visit) const;
+  [[nodiscard]] Scratch& scratch() { return scratch_[static_cast<std::size_t>(thread_index())]; }
+
+  const Model<Real>& model_;
+  int threads_;
+  Obstacles obstacles_;
+  Cloud<Real> cloud_;
+  StageClock clock_;
+  std::vector<Scratch> scratch_;
+  std::vector<TileOfSet> set_tiles_;
+  // Rows of the cloud's slots; see kernels.h.
+  std::vector<Real> velocity_;
+  std::vector<Real> shape_;
+  std::vector<Real> stress_;
+  std::vector<Real> force_;
+  std::vector<Real> crowding_;  // one a slot
+  std::vector<Real> gradient_;  // [dim dim][16] a tile
+  std::vector<Real> smooth_;    // [dim][16] a tile
+};
+
+}  // namespace lather::mlsrk

@@ -1,0 +1,70 @@
+#pragma once
+
+// The kernel Phi, made of cubic splines [MLSRK eq. 7]. Compiled per kernel level.
+
+#include <limits>
+
+#include "sim/math/lane.h"
+
+namespace lather::LATHER_LEVEL {
+
+/// Phi and its gradient by xi.
+template <class T, int Dim>
+struct Weight {
+  T value;
+  T gradient[Dim];
+};
+
+/// The cubic spline at s >= 0, and minus its derivative there: with q = (2 - s)+ and p = (1 - s)+ it is
+/// q^3/6 - 2 p^3/3.
+template <class T>
+inline void cubic_spline(const T& s, T& value, T& descent) {
+  using Real = typename ScalarOf<T>::type;
+  const T zero(Real(0));
+  const T q = max(T(Real(2)) - s, zero);
+  const T p = max(T(Real(1)) - s, zero);
+  const T qq = q * q;
+  const T pp = p * p;
+  value = qq * q * Real(1.0 / 6.0) - pp * p * Real(2.0 / 3.0);
+  descent = qq * Real(0.5) - pp * Real(2);
+}
+
+/// A product of splines along the axes.
+struct TensorWeight {
+  template <class T, int Dim>
+  static Weight<T, Dim> at(const T (&xi)[Dim]) {
+    using Real = typename ScalarOf<T>::type;
+    T w[Dim];
+    T d[Dim];
+    for (int a = 0; a < Dim; ++a) {
+      T descent;
+      cubic_spline(abs(xi[a]), w[a], descent);
+      d[a] = select(xi[a] < T(Real(0)), descent, -descent);
+    }
+    if constexpr (Dim == 2)
+      return {w[0] * w[1], {d[0] * w[1], w[0] * d[1]}};
+    else {
+      const T xy = w[0] * w[1];
+      return {xy * w[2], {d[0] * w[1] * w[2], w[0] * d[1] * w[2], xy * d[2]}};
+    }
+  }
+};
+
+/// A spline of the distance.
+struct RadialWeight {
+  template <class T, int Dim>
+  static Weight<T, Dim> at(const T (&xi)[Dim]) {
+    using Real = typename ScalarOf<T>::type;
+    T squared = xi[0] * xi[0];
+    for (int a = 1; a < Dim; ++a) squared = squared + xi[a] * xi[a];
+    const T s = sqrt(squared);
+    Weight<T, Dim> r;
+    T descent;
+    cubic_spline(s, r.value, descent);
+    const T per_distance = -descent / max(s, T(std::numeric_limits<Real>::min()));  // xi is 0 where s is
+    for (int a = 0; a < Dim; ++a) r.gradient[a] = per_distance * xi[a];
+    return r;
+  }
+};
+
+}  // namespace lather::LATHER_LEVEL

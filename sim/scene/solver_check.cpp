@@ -1,0 +1,108 @@
+#include "sim/scene/solver_check.h"
+
+#include <array>
+#include <cmath>
+
+#include "sim/scene/tables.h"
+
+namespace lather {
+namespace {
+
+using descriptor::Place;
+
+constexpr const char* kTurnToMpm = "set \"solver\" to \"mpm\"";
+
+void check_models_of_mpm(const Scene& scene, const Place& materials) {
+  const std::string& known = tables::default_model().name;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string& model = tables::model_of(scene.materials[i].law).name;
+    if (model == known) continue;
+    materials.at(i).at("model").refuse(
+        Value(model), "\"" + known + "\" with \"solver\": \"mpm\"",
+        "The solver \"mpm\" knows the model \"" + known +
+            "\" only. Set \"solver\" to \"mlsrk\", which knows every model, or use that model.");
+  }
+}
+
+void check_no_tearing(const Scene& scene, const Place& materials) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const double threshold = scene.materials[i].tearing.tear_threshold;
+    if (std::isinf(threshold)) continue;
+    materials.at(i)
+        .at("tear_threshold")
+        .refuse(Value(threshold), "\"infinity\" with \"solver\": \"mlsrk\"",
+                std::string("The solver \"mlsrk\" does not tear materials") +
+                    (scene.materials[i].preset.empty() ? "" : ", and the preset gives a threshold") +
+                    ". Set \"tear_threshold\" to \"infinity\", or " + kTurnToMpm + ".");
+  }
+}
+
+void check_no_mpm_numerics(const Value& document, const Scene& scene, const Place& root) {
+  const Value* given = document.find("numerics");
+  const auto refuse = [&](const char* key, const std::string& allowed, const std::string& message) {
+    root.at("numerics").at(key).refuse(given != nullptr ? given->find(key) : nullptr, allowed, message);
+  };
+  if (scene.numerics.integration != Integration::kExplicit)
+    refuse("integration", "\"explicit\" with \"solver\": \"mlsrk\"",
+           std::string("The solver \"mlsrk\" takes explicit steps only. Take \"integration\" out, or ") +
+               kTurnToMpm + ".");
+  const std::string off = "null, or left out, with \"solver\": \"mlsrk\"";
+  if (scene.numerics.resampling)
+    refuse(
+        "resampling", off,
+        std::string("The solver \"mlsrk\" neither inserts nor merges points. Take \"resampling\" out, or ") +
+            kTurnToMpm + ".");
+  if (scene.numerics.subgrid_removal)
+    refuse("subgrid_removal", off,
+           std::string("The solver \"mlsrk\" has no grid. Take \"subgrid_removal\" out, or ") + kTurnToMpm +
+               ".");
+}
+
+void check_nothing_of(const Value& document, const char* key, bool any, const char* message,
+                      const Place& root) {
+  if (!any) return;
+  root.at(key).refuse(document.find(key), "an empty list, or left out, with \"solver\": \"mlsrk\"",
+                      std::string(message) + " Take \"" + key + "\" out, or " + kTurnToMpm + ".");
+}
+
+/// Along a periodic axis no point may see two images of another.
+void check_periods_of_mlsrk(const Scene& scene, const Place& root) {
+  constexpr double kLeast = 2 * tables::kMaxSupportRadius;
+  static const std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  for (int i = 0; i < scene.dimension; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const double extent = scene.domain.box.extent()[i];
+    if (!scene.domain.periodic[axis] || extent >= kLeast * scene.spacing * (1 - 1e-9)) continue;
+    root.at("domain")
+        .at("periodic")
+        .at(axis)
+        .refuse(Value(true),
+                "an extent of at least 8 spacings, " + write_json(Value(kLeast * scene.spacing)) +
+                    " m, with \"solver\": \"mlsrk\"",
+                "The domain's extent along " + std::string(kAxes[axis]) + " is " + write_json(Value(extent)) +
+                    " m, so that points would see each other on both sides. Widen the domain along " +
+                    kAxes[axis] + ", or take a smaller \"spacing\".");
+  }
+}
+
+}  // namespace
+
+void check_solver(const Value& document, const Scene& scene, const Place& root) {
+  if (scene.solver == Solver::kMpm) {
+    check_models_of_mpm(scene, root.at("materials"));
+    return;
+  }
+  if (scene.points_per_cell != 1)
+    root.at("points_per_cell")
+        .refuse(document.find("points_per_cell"), "1 with \"solver\": \"mlsrk\"",
+                "\"spacing\" is the distance of the points there. Take \"points_per_cell\" out, and choose "
+                "\"spacing\".");
+  check_no_tearing(scene, root.at("materials"));
+  check_no_mpm_numerics(document, scene, root);
+  check_nothing_of(document, "emitters", !scene.emitters.empty(),
+                   "The solver \"mlsrk\" lets nothing in during the run.", root);
+  check_nothing_of(document, "probes", !scene.probes.empty(), "The solver \"mlsrk\" takes no probes.", root);
+  check_periods_of_mlsrk(scene, root);
+}
+
+}  // namespace lather
