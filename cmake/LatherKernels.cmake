@@ -1,3 +1,19 @@
+# Tests PREFIX.symbols_stay_within_LEVEL_REAL: the objects of lather_add_kernels(NAME …) define no symbol that another
+# level could be given. An unsanitised build only: sanitizers add symbols of their own to every object.
+function(lather_test_kernel_symbols prefix name)
+  if(LATHER_SANITIZE)
+    return()
+  endif()
+  foreach(level v2 v3 v4)
+    foreach(real float double)
+      set(test ${prefix}.symbols_stay_within_${level}_${real})
+      add_test(NAME ${test}
+        COMMAND ${PROJECT_SOURCE_DIR}/tests/unit/sim/mpm/kernel_symbols $<TARGET_OBJECTS:${name}_${real}_${level}> ${level})
+      set_tests_properties(${test} PROPERTIES LABELS unit)
+    endforeach()
+  endforeach()
+endfunction()
+
 # Kernels, once per instruction set and precision, as object libraries NAME_float_v2 … NAME_double_v4 that go into
 # lather_sim. SOURCE hands its table out by a function FLOAT_OR_DOUBLE_TABLE_LEVEL(), e.g. float_kernels_v2().
 #

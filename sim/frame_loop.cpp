@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "sim/plan/step_bound.h"
+#include "sim/surface/skin.h"
 
 namespace lather {
 
@@ -102,6 +103,17 @@ void FrameLoop::record(int index) {
     for (int s = 0; s < kStageCount; ++s)
       if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
         report_.stages.push_back({name, clock().seconds(static_cast<Stage>(s))});
+}
+
+Frame FrameLoop::with_skins(Frame frame) const {
+  if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
+  return frame;
+}
+
+void FrameLoop::measure_skins(const Frame& frame, FrameMeasure& m) {
+  skins_ = skins_of(frame, threads_);
+  m.skin_volume = 0;
+  for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
 }
 
 std::string FrameLoop::checkpoint_key() const {

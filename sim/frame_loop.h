@@ -67,6 +67,13 @@ class FrameLoop : public Simulation {
   /// Names the state that bytes of a checkpoint belong to.
   [[nodiscard]] std::string checkpoint_key() const;
 
+  /// The frame with the skins that its scene asks for: those of the measured one where they are known.
+  [[nodiscard]] Frame with_skins(Frame frame) const;
+  /// Makes the skins of `frame`, which is about to be measured, and adds their volume to `m`.
+  void measure_skins(const Frame& frame, FrameMeasure& m);
+  /// After a restore: skins are made anew.
+  void forget_skins() { skins_.clear(); }
+
   Plan plan_;
   int threads_;
   Report report_;
@@ -76,6 +83,7 @@ class FrameLoop : public Simulation {
   void step(double dt);
   void check(const StepExtremes& seen, const Moment& start, double dt) const;
 
+  std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
   double last_step_ = 0;
 };
 

@@ -13,7 +13,6 @@
 #include "sim/report/measure.h"
 #include "sim/report/pieces.h"
 #include "sim/snapshot.h"
-#include "sim/surface/skin.h"
 
 namespace lather::mlsrk {
 namespace {
@@ -36,9 +35,7 @@ class MlsrkSimulation final : public FrameLoop {
   }
 
   [[nodiscard]] Frame frame() const override {
-    Frame frame = snapshot_.take(state_.sets, state_.time, plan_, measured_frame_);
-    if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
-    return frame;
+    return with_skins(snapshot_.take(state_.sets, state_.time, plan_, measured_frame_));
   }
 
   void visit_points(const std::function<void(const PointState&)>& visit) const override {
@@ -78,7 +75,7 @@ class MlsrkSimulation final : public FrameLoop {
     r.get_report(report_);
     r.get_sets(state_.sets);
     stepper_.forget_tiles();
-    skins_.clear();
+    forget_skins();
   }
 
  private:
@@ -119,20 +116,13 @@ class MlsrkSimulation final : public FrameLoop {
     stepper_.sort_when_drifted(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     // Points a spacing apart leave cells of one spacing empty; pieces lie out of each other's reach.
-    const Pieces pieces = find_pieces(state_.sets, model_.bounds, 2);
-    m.pieces = pieces.count;
-    m.largest_piece_share = pieces.largest_share;
-    m.second_piece_share = pieces.second_share;
+    find_pieces(state_.sets, model_.bounds, 2).put(m);
     for (std::size_t s = 0; s < state_.sets.size(); ++s) {
       m.points_left += state_.left[s].points;
       m.mass_left +=
           model_.scene.materials[s].density() * model_.scene.point_volume() * state_.left[s].shares;
     }
-    if (plan_.scene.wants_skin()) {
-      skins_ = skins_of(snapshot_.take(state_.sets, state_.time, plan_, index), threads_);
-      m.skin_volume = 0;
-      for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
-    }
+    if (plan_.scene.wants_skin()) measure_skins(snapshot_.take(state_.sets, state_.time, plan_, index), m);
     report_.regularized_moments = state_.regularized;
     report_.light_masses = state_.light;
     return m;
@@ -142,7 +132,6 @@ class MlsrkSimulation final : public FrameLoop {
   State<Real> state_;
   Stepper<Real> stepper_;
   Snapshot snapshot_;
-  std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
 };
 
 }  // namespace

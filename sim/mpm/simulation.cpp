@@ -15,7 +15,6 @@
 #include "sim/report/measure.h"
 #include "sim/report/pieces.h"
 #include "sim/snapshot.h"
-#include "sim/surface/skin.h"
 
 namespace lather::mpm {
 namespace {
@@ -45,9 +44,7 @@ class MpmSimulation final : public FrameLoop {
   }
 
   [[nodiscard]] Frame frame() const override {
-    Frame frame = snapshot_.take(state_.sets, state_.time, plan_, measured_frame_);
-    if (plan_.scene.wants_skin()) frame.skins = skins_.empty() ? skins_of(frame, threads_) : skins_;
-    return frame;
+    return with_skins(snapshot_.take(state_.sets, state_.time, plan_, measured_frame_));
   }
   void visit_points(const std::function<void(const PointState&)>& visit) const override {
     visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
@@ -59,7 +56,7 @@ class MpmSimulation final : public FrameLoop {
   void restore(const std::string& bytes) override {
     read_checkpoint(bytes, checkpoint_key(), state_, report_, measured_frame_);
     stepper_.forget_grid();
-    skins_.clear();
+    forget_skins();
   }
 
  private:
@@ -142,14 +139,11 @@ class MpmSimulation final : public FrameLoop {
     stepper_.detect_tearing(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
     measure_density(stepper_, state_, model_, m);
-    const Pieces pieces = find_pieces(state_.sets, model_.bounds);
-    m.pieces = pieces.count;
-    m.largest_piece_share = pieces.largest_share;
-    m.second_piece_share = pieces.second_share;
+    find_pieces(state_.sets, model_.bounds).put(m);
     if (const auto voids = stepper_.interior_voids(state_))
       m.interior_voids = static_cast<std::int64_t>(*voids);
     report_flows(m);
-    if (plan_.scene.wants_skin()) measure_skin(index, m);
+    if (plan_.scene.wants_skin()) measure_skins(snapshot_.take(state_.sets, state_.time, plan_, index), m);
     return m;
   }
 
@@ -159,17 +153,10 @@ class MpmSimulation final : public FrameLoop {
     return all;
   }
 
-  void measure_skin(int index, FrameMeasure& m) {
-    skins_ = skins_of(snapshot_.take(state_.sets, state_.time, plan_, index), threads_);
-    m.skin_volume = 0;
-    for (const FrameSkin& skin : skins_) *m.skin_volume += skin.volume;
-  }
-
   Model<Real> model_;
   State<Real> state_;
   Stepper<Real> stepper_;
   Snapshot snapshot_;
-  std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
 };
 
 }  // namespace

@@ -19,6 +19,12 @@ struct Pieces {
   std::uint64_t count = 0;   ///< pieces with at least kLeastPiece of the points
   double largest_share = 0;  ///< of all points, in the largest piece
   double second_share = 0;   ///< … in the second largest, 0 where there is none
+
+  void put(FrameMeasure& m) const {
+    m.pieces = count;
+    m.largest_piece_share = largest_share;
+    m.second_piece_share = second_share;
+  }
 };
 
 /// In cells of `width` spacings; a power of two, so that it divides the periods.

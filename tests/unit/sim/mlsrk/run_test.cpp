@@ -142,6 +142,21 @@ TEST_P(MlsrkRun, AllLawsStayFiniteAndKeepTheirMass) {
   }
 }
 
+// A liquid that fills a periodic box has its volume at rest, at any support radius: a full lattice gives 1.
+TEST(MlsrkVolumes, ComeFromNeighboursWhereTheyAreCorrected) {
+  const std::string box = R"({"lather": 1, "name": "full", "solver": "mlsrk", "dimension": 2,
+    "domain": {"min": [0, 0], "max": [0.8, 0.8], "periodic": [true, true, false]}, "gravity": [0, 0], "duration": 0.01,
+    "frame_rate": 100, "spacing": 0.05,
+    "materials": [{"name": "water", "model": "liquid", "density": 1000, "bulk_modulus": 1e5}],
+    "bodies": [{"name": "water", "material": "water",
+                "shape": {"type": "box", "size": [2, 2, 2], "translate": [0.4, 0.4, 0]}}]})";
+  for (const char* radius : {"2", "2.5", "3"}) {
+    const FrameMeasure f = run(box, {{"/numerics/mlsrk/support_radius", radius}}).frames.back();
+    EXPECT_NEAR(f.min_volume_ratio, 1, 1e-5) << radius;
+    EXPECT_NEAR(f.max_volume_ratio, 1, 1e-5) << radius;
+  }
+}
+
 // A single point has no neighbours: no moment matrix of rank, no gradient, nothing but gravity.
 TEST_P(MlsrkRun, AnIsolatedPointFallsFreely) {
   for (const char* r0 : {"0", "1e-3"}) {
