@@ -5,7 +5,7 @@
 namespace lather::checkpoint {
 namespace {
 
-constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '4'};
+constexpr char kMagic[8] = {'l', 'a', 't', 'h', 'e', 'r', 'C', '5'};
 
 /// Calls visit(field) for every plain field of a frame's figures, in a fixed order.
 template <class Measure, class Visit>
@@ -20,7 +20,7 @@ void for_figures(Measure& m, const Visit& visit) {
   visit(m.interior_nodes), visit(m.interior_voids), visit(m.points_inserted), visit(m.points_merged),
       visit(m.resampling_momentum), visit(m.points_removed), visit(m.mass_removed);
   visit(m.density_mean), visit(m.density_min), visit(m.density_max), visit(m.density_within_5_percent);
-  visit(m.skin_volume);
+  visit(m.skin_volume), visit(m.phases), visit(m.lumped);
   visit(m.pieces), visit(m.largest_piece_share), visit(m.second_piece_share);
 }
 

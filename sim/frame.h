@@ -25,7 +25,7 @@ struct Pose {
 
 /// One scalar carried by every point of a frame, for colour maps and export.
 struct PointScalar {
-  std::string name;           ///< "speed", "J", "plastic_strain", "plasticity", "weak"
+  std::string name;           ///< "speed", "J", "plastic_strain", "plasticity", "weak", "concentration"
   std::string unit;           ///< "m/s", "1"
   std::vector<float> values;  ///< one a point
 };

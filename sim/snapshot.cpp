@@ -35,7 +35,11 @@ double scalar_of(const ParticleSet<Real>& set, const Material& material, const S
   const auto lane = static_cast<int>(s.lane);
   if (name == "speed") return set.velocity(s.tile, lane).norm();
   if (name == "J") return 1 + set.volume_change(s.tile, lane);
-  // What a material's law does not keep is 0.
+  // What a material does not keep is 0.
+  if (name == "concentration")
+    return set.layout().has(Field::kConcentration)
+               ? set.template values<double>(s.tile, Field::kConcentration)[lane]
+               : 0;
   const auto kept = [&](Field f) {
     return set.layout().has(f) ? set.template values<Real>(s.tile, f)[lane] : Real(0);
   };

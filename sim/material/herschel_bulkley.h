@@ -13,6 +13,8 @@
 // holds differences, J - 1 and B = be - I: oobleck yields at a strain of 1e-5, which a float that holds be
 // itself cannot see. h is the flow index here, never a length.
 
+#include <iterator>
+
 #include "sim/material/herschel_bulkley_constants.h"
 #include "sim/math/tensor.h"
 
@@ -116,10 +118,28 @@ inline T plastic_excess(const T& excess_pre, const T& two_mu_dt, const HerschelB
   return select(yields, x * scale_x * e, zero);
 }
 
+/// The same with constants of their own for each lane, one lane after the other.
+template <class Real>
+inline Lane<Real> plastic_excess(const Lane<Real>& excess_pre, const Lane<Real>& two_mu_dt,
+                                 const HerschelBulkleyConstants<Lane<Real>>& c) {
+  const Lane<Real>* values[] = {&excess_pre,     &two_mu_dt,   &c.bulk_modulus, &c.shear_modulus,
+                                &c.yield_radius, &c.viscosity, &c.flow_index,   &c.inverse_flow_index,
+                                &c.epsilon};
+  Real lanes[std::size(values)][kLanes];
+  for (std::size_t n = 0; n < std::size(values); ++n) values[n]->store(lanes[n]);
+  Real excess[kLanes];
+  for (int k = 0; k < kLanes; ++k) {
+    const HerschelBulkleyConstants<Real> own = {lanes[2][k], lanes[3][k], lanes[4][k], lanes[5][k],
+                                                lanes[6][k], lanes[7][k], lanes[8][k]};
+    excess[k] = plastic_excess(lanes[0][k], lanes[1][k], own);
+  }
+  return Lane<Real>::load(excess);
+}
+
 /// Plastic correction after predict_elastic. [Foam eq. 14-18, Algorithm 13]
 /// Returns the equivalent plastic strain of the step, sqrt(2/3) gamma dt.
-template <class T, class Real>
-inline T correct_plastic(HerschelBulkleyState<T>& state, const HerschelBulkleyConstants<Real>& c, Real dt) {
+template <class T, class C, class Real>
+inline T correct_plastic(HerschelBulkleyState<T>& state, const HerschelBulkleyConstants<C>& c, Real dt) {
   const T trace_B = trace(state.strain);
   const Sym3<T> dev = deviator(state.strain);
   const T s_pre = sqrt(norm_squared(dev)) * c.shear_modulus;
@@ -128,7 +148,7 @@ inline T correct_plastic(HerschelBulkleyState<T>& state, const HerschelBulkleyCo
   T plastic_strain(Real(0));
   if (any(yields)) {
     const T two_mu =
-        (trace_B * Real(1.0 / 3.0) + Real(1)) * Real(2 * c.shear_modulus);  // 2 mu~, [Foam eq. 15]
+        (trace_B * Real(1.0 / 3.0) + Real(1)) * (c.shear_modulus * Real(2));  // 2 mu~, [Foam eq. 15]
     const T excess = plastic_excess(excess_pre, two_mu * dt, c);
     const T shrink = select(yields, (excess + c.yield_radius) / s_pre, T(Real(1)));
     state.strain = add_isotropic(scale(dev, shrink), trace_B * Real(1.0 / 3.0));  // [Foam eq. 18]

@@ -49,6 +49,11 @@ class Cloud {
     place_[std::size_t{slot} * 4 + 3] = volume * per_volume_;
   }
 
+  /// What was put there, m^dim.
+  [[nodiscard]] Real volume(std::uint32_t slot) const {
+    return place_[std::size_t{slot} * 4 + 3] / per_volume_;
+  }
+
   /// World position of a slot's point, m.
   [[nodiscard]] Vec3 position(std::uint32_t slot) const;
   /// Corners of the box around a tile's points, m.

@@ -53,6 +53,9 @@ inline constexpr int kVelocityReals = 4;
 /// Rows of eight: V sigma, xx yy zz xy xz yz (Pa m^3), 0, mass (kg).
 inline constexpr int kStressReals = 8;
 
+/// A lumped mass below this share of the point's own one gives way to the latter.
+inline constexpr double kLightest = 0.1;
+
 /// What a step of momentum() needs.
 template <class Real>
 struct MomentumStep {
@@ -78,10 +81,9 @@ struct Kernels {
   void (*prepare_forces)(const Real* shape, const Real* stress, Real* force);
 
   /// [momentum] Adds a step's change to the tile's 16 velocity rows [MLSRK eq. 11]; `force` are the rows of
-  /// the whole cloud. `light`, [16]: 1 where the lumped mass is below a tenth of the own one, which then
-  /// counts.
+  /// the whole cloud. `lumped_mass`, [16], kg: sum_j N_i(x_j) m_j; where light the own one counts.
   void (*momentum)(const MomentumStep<Real>&, const Targets<Real>&, const Candidates<Real>&,
-                   const Real* force, Real* velocity, Real* light);
+                   const Real* force, Real* velocity, Real* lumped_mass);
 
   /// [velocity gradients] `gradient`: [dim dim][16], row by row, 1/s [MLSRK eq. 18]; `smooth`: [dim][16],
   /// u^h(x_i) - u_i, m/s [MLSRK eq. 12]; `own` are the tile's shape and velocity rows, `velocity` those of
@@ -91,18 +93,30 @@ struct Kernels {
                     const Real* velocity, Real* gradient, Real* smooth);
 };
 
-/// One material's constants in the run's precision; those of other laws than its own are not read.
+/// A law's constants; those of other laws than a material's own are not read. C is the run's precision, or
+/// lanes of it where points of different concentrations have different ones.
+template <class C>
+struct LawConstants {
+  HerschelBulkleyConstants<C> herschel_bulkley;
+  NeoHookeanConstants<C> elastic;
+  DruckerPragerConstants<C> drucker_prager;
+  SnowConstants<C> snow;
+  EquationOfStateConstants<C> liquid;
+  NewtonianConstants<C> viscous;
+  C swelling;  ///< J_r: volume at rest over the one at t = 0 [MLSRK eq. 30]
+};
+
+inline constexpr int kConcentrationSteps = 256;  ///< of a table over concentrations
+
+/// One material's constants in the run's precision.
 template <class Real>
 struct MaterialConstants {
-  Real volume;     ///< of each point at rest, m^dim
+  Real volume;     ///< of each point at rest at t = 0, m^dim
   Real mass;       ///< of each point, kg
   bool corrected;  ///< volumes from neighbours, not from F [MLSRK eq. 19]
-  HerschelBulkleyConstants<Real> herschel_bulkley;
-  NeoHookeanConstants<Real> elastic;
-  DruckerPragerConstants<Real> drucker_prager;
-  SnowConstants<Real> snow;
-  EquationOfStateConstants<Real> liquid;
-  NewtonianConstants<Real> viscous;
+  LawConstants<Real> law;
+  /// kConcentrationSteps + 1 of them, from c = 0 to 1; null: `law` is that of all points.
+  const LawConstants<Real>* by_concentration;
 };
 
 /// A tile of one material's set.
@@ -113,18 +127,61 @@ struct SetTile {
   const MaterialConstants<Real>* material;
 };
 
+/// What points with a concentration show their neighbours: rows of three.
+struct PhaseRow {
+  static constexpr int kValue = 0;     ///< c, or the potential mu_c, dimensionless
+  static constexpr int kMember = 1;    ///< 1; 0 of points without a concentration
+  static constexpr int kMobility = 2;  ///< what grad mu_c is multiplied with: m L~ (kg m^2/s), or V L~
+  static constexpr int kReals = 3;
+};
+
+/// What the phase kernels need of the scene.
+template <class Real>
+struct PhaseStep {
+  Real inverse_scale;            ///< 1/a, 1/m
+  Real squared_interface_width;  ///< epsilon^2, m^2
+  bool double_well;              ///< H = c^2 (1 - c)^2 in place of (c - 1/2)^2
+};
+
+/// Concentrations by dimension, basis and shape of Phi. [phases]
+template <class Real>
+struct PhaseKernels {
+  std::int32_t flux_reals;  ///< of a flux row
+
+  /// [shape functions] `crowding`, [16], where points differ in their volumes at rest: sum_j Phi v_j, with
+  /// `rest`, v_j, one a slot, over the volume at t = 0.
+  void (*crowding)(const Targets<Real>&, const Candidates<Real>&, const Real* rest, Real* crowding);
+
+  /// `potential`, [16]: mu_c of the tile's points [MLSRK eq. 16]; `rows` hold concentrations.
+  void (*potentials)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&,
+                     const Real* own_shape, const Real* own_rows, const Real* rows, Real* potential);
+  /// The tile's 16 flux rows and `own`, [16]: what the point's own flux gives back to it; `rows` hold
+  /// potentials.
+  void (*fluxes)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&, const Real* own_shape,
+                 const Real* own_rows, const Real* rows, Real* flux, Real* own);
+  /// `gain`, [16]: -sum_j grad N_i(x_j) . q_j, and `volume`, [16]: sum_j N_i(x_j) V_j over a^dim.
+  void (*gains)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&, const Real* flux,
+                Real* gain, Real* volume);
+};
+
 /// A law on tiles of its material's points.
 template <class Real>
 struct LawKernels {
-  /// [shape functions] J - 1, [16].
-  void (*volume_changes)(const SetTile<Real>&, Real* change);
-  /// [stress] Gives the points the volumes that their neighbours leave them, `change` = V/V0 - 1, [16]
+  /// [neighbours] The points' volumes as their neighbours count them, m^dim, [16]. What bears no tension and
+  /// takes its volume from its neighbours has empty space beside it where that is larger than at rest, and
+  /// its own volume is the latter.
+  void (*volumes)(const SetTile<Real>&, Real* volume);
+  /// [shape functions] J_r, volumes at rest over those at t = 0, [16] [MLSRK eq. 30].
+  void (*swelling)(const SetTile<Real>&, Real* ratio);
+  /// [stress] Gives the points the volumes that their neighbours leave them, `change` = V/V_rest - 1, [16]
   /// [MLSRK eq. 19]; null for laws that never do.
   void (*correct)(const SetTile<Real>&, const Real* change);
   /// [stress] 16 stress rows. Returns the largest factor by which moduli are hardened.
   Real (*stress)(const SetTile<Real>&, Real* rows);
   /// [deformation] F' = (I + dt L) F [MLSRK eq. 17], return mapping; `gradient` is L, [dim dim][16].
   void (*deform)(const SetTile<Real>&, Real dt, const Real* gradient);
+  /// [phases] c += `change`, [16]; F_e takes what the volume at rest gains or loses [MLSRK eq. 30, 31].
+  void (*change_concentration)(const SetTile<Real>&, const double* change);
 };
 
 /// What positions() needs.
@@ -149,13 +206,15 @@ inline constexpr int kLaws = 5;  ///< alternatives of Law
 /// [dimension - 2][basis][radial]; `scalar`: the same kernels one point at a time, for tests.
 template <class Real>
 struct KernelTable {
-  LawKernels<Real> laws[2][kLaws];  ///< [dimension - 2][index of the law]
+  LawKernels<Real> laws[2][2][kLaws];  ///< [dimension - 2][by concentration][index of the law]
   /// [positions] x += dt u, then u += blend (u^h - u) [MLSRK eq. 12]; `velocity`: [dim][16] of u,
   /// `smooth`: [dim][16] of u^h - u. [dimension - 2]
   TileExtremes (*positions[2])(const SetTile<Real>&, const MoveStep<Real>&, const Real* velocity,
                                const Real* smooth);
   Kernels<Real> wide[2][3][2];
   Kernels<Real> scalar[2][3][2];
+  PhaseKernels<Real> phases[2][3][2];
+  PhaseKernels<Real> scalar_phases[2][3][2];
 };
 
 }  // namespace lather::mlsrk

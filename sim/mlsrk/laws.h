@@ -1,7 +1,7 @@
 #pragma once
 
-// The laws on tiles of a material's points: which fields each keeps, and how the stages use it. Compiled per
-// kernel level.
+// The laws on tiles of a material's points: which fields each keeps, and how the stages use it. C is the type
+// of the constants: Real, or lanes of it where they change with the concentration. Compiled per kernel level.
 
 #include "sim/material/drucker_prager.h"
 #include "sim/material/equation_of_state.h"
@@ -11,6 +11,7 @@
 #include "sim/material/snow.h"
 #include "sim/material/volume_correction.h"
 #include "sim/mlsrk/kernels.h"
+#include "sim/mlsrk/law_constants.h"
 #include "sim/particles/tile.h"
 
 namespace lather::LATHER_LEVEL {
@@ -32,14 +33,14 @@ inline Mat3<T> deformed_further(const Mat3<T>& A, const Mat3<T>& G) {
   return sum(sum(A, G), product(A, G));
 }
 
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 struct HerschelBulkleyOnTile {
   using T = Lane<Real>;
   static T volume_change(const Tile<Real, Dim>& tile) { return tile.lane(Field::kVolumeChange); }
-  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, T&) {
+  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, T&) {
     return kirchhoff_stress(load_state(tile), m.herschel_bulkley);
   }
-  static void deform(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, Real dt,
+  static void deform(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, bool, Real dt,
                      const Mat3<T>& A) {
     HerschelBulkleyState<T> s = predict_elastic(load_state(tile), A);
     const T plastic = correct_plastic(s, m.herschel_bulkley, dt);
@@ -49,14 +50,14 @@ struct HerschelBulkleyOnTile {
   }
 };
 
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 struct NeoHookeanOnTile {
   using T = Lane<Real>;
   static T volume_change(const Tile<Real, Dim>& tile) { return det_minus_one(load_deformation(tile)); }
-  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, T&) {
+  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, T&) {
     return kirchhoff_stress(load_deformation(tile), m.elastic);
   }
-  static void deform(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>&, Real,
+  static void deform(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>&, bool, Real,
                      const Mat3<T>& A) {
     store_deformation(tile, deformed_further(A, load_deformation(tile)));
   }
@@ -78,7 +79,8 @@ struct ElastoplasticOnTile {
     const T elastic = det_minus_one(s.deformation);
     return elastic + s.plastic_volume + elastic * s.plastic_volume;
   }
-  static Sym3<T> hardened(const Tile<Real, Dim>& tile, const NeoHookeanConstants<Real>& c, Real xi,
+  template <class C>
+  static Sym3<T> hardened(const Tile<Real, Dim>& tile, const NeoHookeanConstants<C>& c, const C& xi,
                           T& stiffest) {
     const ElastoplasticState<T> s = load(tile);
     const T factor = hardening(s.plastic_volume, xi);
@@ -87,15 +89,14 @@ struct ElastoplasticOnTile {
   }
 };
 
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 struct SnowOnTile : ElastoplasticOnTile<Real, Dim> {
   using T = Lane<Real>;
   using Base = ElastoplasticOnTile<Real, Dim>;
-  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m,
-                           T& stiffest) {
+  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, T& stiffest) {
     return Base::hardened(tile, m.elastic, m.snow.hardening, stiffest);
   }
-  static void deform(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, Real,
+  static void deform(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, bool, Real,
                      const Mat3<T>& A) {
     ElastoplasticState<T> s = Base::load(tile);
     s.deformation = deformed_further(A, s.deformation);
@@ -104,68 +105,94 @@ struct SnowOnTile : ElastoplasticOnTile<Real, Dim> {
   }
 };
 
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 struct DruckerPragerOnTile : ElastoplasticOnTile<Real, Dim> {
   using T = Lane<Real>;
   using Base = ElastoplasticOnTile<Real, Dim>;
-  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m,
-                           T& stiffest) {
+  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, T& stiffest) {
     return Base::hardened(tile, m.elastic, m.drucker_prager.hardening, stiffest);
   }
   /// With the correction the return mapping waits for the volume that it is to see.
-  static void deform(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, Real,
+  static void deform(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, bool corrected, Real,
                      const Mat3<T>& A) {
     ElastoplasticState<T> s = Base::load(tile);
     s.deformation = deformed_further(A, s.deformation);
-    if (!m.corrected) correct_plastic<Dim>(s, m.drucker_prager);
+    if (!corrected) correct_plastic<Dim>(s, m.drucker_prager);
     Base::store(tile, s);
   }
-  static void correct(const mlsrk::SetTile<Real>& at, const Real* change) {
-    const Tile<Real, Dim> tile{at.bytes, at.layout};
+  static void correct(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, const T& change) {
     ElastoplasticState<T> s = Base::load(tile);
-    s.deformation = volume_corrected<Dim>(s.deformation, T::load(change), s.plastic_volume);
-    correct_plastic<Dim>(s, at.material->drucker_prager);
+    s.deformation = volume_corrected<Dim>(s.deformation, change, s.plastic_volume);
+    correct_plastic<Dim>(s, m.drucker_prager);
     Base::store(tile, s);
   }
 };
 
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 struct LiquidOnTile {
   using T = Lane<Real>;
   static T volume_change(const Tile<Real, Dim>& tile) { return tile.lane(Field::kVolumeChange); }
-  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m, T&) {
+  static Sym3<T> kirchhoff(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>& m, T&) {
     const T zero(Real(0));
     const T j = volume_change(tile);
     return add_isotropic(Sym3<T>{zero, zero, zero, zero, zero, zero}, -pressure(j, m.liquid) * (j + Real(1)));
   }
-  static void deform(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>&, Real,
+  static void deform(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>&, bool, Real,
                      const Mat3<T>& A) {
     const T j = volume_change(tile);
     const T d = det_minus_one(A);
     tile.put(Field::kVolumeChange, 0, j + d + j * d);
   }
-  static void correct(const mlsrk::SetTile<Real>& at, const Real* change) {
-    Tile<Real, Dim>{at.bytes, at.layout}.put(Field::kVolumeChange, 0, T::load(change));
+  static void correct(const Tile<Real, Dim>& tile, const mlsrk::LawConstants<C>&, const T& change) {
+    tile.put(Field::kVolumeChange, 0, change);
   }
 };
 
-template <class Real, int Dim, class OnTile>
-void volume_changes(const mlsrk::SetTile<Real>& at, Real* change) {
-  OnTile::volume_change({at.bytes, at.layout}).store(change);
+/// V/V0 - 1 by the volume ratio that the law sees, J, and the one at rest, J_r.
+template <class T, class C>
+inline T swollen(const T& j, const C& J_r) {
+  return j + (J_r - C(1)) * (j + C(1));
 }
 
-/// V sigma = V0 tau + V sigma_v: elastic and viscous stress add up [MLSRK section 4.3].
-template <class Real, int Dim, class OnTile>
-Real stress_rows(const mlsrk::SetTile<Real>& at, Real* rows) {
+template <class Real, int Dim, class C, template <class, int, class> class OnTile>
+void volumes(const mlsrk::SetTile<Real>& at, Real* volume) {
   using T = Lane<Real>;
   const Tile<Real, Dim> tile{at.bytes, at.layout};
-  const mlsrk::MaterialConstants<Real>& m = *at.material;
+  T own = OnTile<Real, Dim, C>::volume_change(tile);
+  if (at.material->corrected) own = min(own, T(Real(0)));
+  const T change = swollen(own, law_constants<C>(tile, *at.material).swelling);
+  ((change + Real(1)) * at.material->volume).store(volume);
+}
+
+template <class Real, int Dim, class C>
+void swelling(const mlsrk::SetTile<Real>& at, Real* ratio) {
+  const Tile<Real, Dim> tile{at.bytes, at.layout};
+  Lane<Real>(law_constants<C>(tile, *at.material).swelling).store(ratio);
+}
+
+template <class Real, int Dim, class C, template <class, int, class> class OnTile>
+void correct(const mlsrk::SetTile<Real>& at, const Real* change) {
+  using T = Lane<Real>;
+  const Tile<Real, Dim> tile{at.bytes, at.layout};
+  const mlsrk::LawConstants<C>& m = law_constants<C>(tile, *at.material);
+  OnTile<Real, Dim, C>::correct(tile, m, T::load(change));
+}
+
+/// V sigma = V0 J_r tau + V sigma_v: elastic and viscous stress add up [MLSRK section 4.3]; the elastic
+/// energy is one per volume at rest, as swollen [MLSRK eq. 30].
+template <class Real, int Dim, class C, template <class, int, class> class OnTile>
+Real stress_rows(const mlsrk::SetTile<Real>& at, Real* rows) {
+  using T = Lane<Real>;
+  using Law = OnTile<Real, Dim, C>;
+  const Tile<Real, Dim> tile{at.bytes, at.layout};
+  const mlsrk::LawConstants<C>& m = law_constants<C>(tile, *at.material);
+  const T rest_volume = T(m.swelling) * at.material->volume;
   T stiffest(Real(1));
-  Sym3<T> s = scale(OnTile::kirchhoff(tile, m, stiffest), T(m.volume));
+  Sym3<T> s = scale(Law::kirchhoff(tile, m, stiffest), rest_volume);
   if (tile.has(Field::kVelocityGradient)) {
     const Mat3<T> L =
         deformation_increment<Real, Dim>(Real(1), tile.template field<Real>(Field::kVelocityGradient));
-    const T volume = (OnTile::volume_change(tile) + Real(1)) * m.volume;
+    const T volume = (Law::volume_change(tile) + Real(1)) * rest_volume;
     const Sym3<T> v = scale(viscous_stress<Dim>(L, m.viscous), volume);
     s = {s.xx + v.xx, s.yy + v.yy, s.zz + v.zz, s.xy + v.xy, s.xz + v.xz, s.yz + v.yz};
   }
@@ -177,7 +204,7 @@ Real stress_rows(const mlsrk::SetTile<Real>& at, Real* rows) {
   }
   for (int k = 0; k < kLanes; ++k) {
     rows[k * mlsrk::kStressReals + 6] = Real(0);
-    rows[k * mlsrk::kStressReals + 7] = m.mass;
+    rows[k * mlsrk::kStressReals + 7] = at.material->mass;
   }
   stiffest.store(lanes);
   Real most = Real(1);
@@ -185,31 +212,33 @@ Real stress_rows(const mlsrk::SetTile<Real>& at, Real* rows) {
   return most;
 }
 
-template <class Real, int Dim, class OnTile>
+template <class Real, int Dim, class C, template <class, int, class> class OnTile>
 void deform(const mlsrk::SetTile<Real>& at, Real dt, const Real* gradient) {
   const Tile<Real, Dim> tile{at.bytes, at.layout};
-  OnTile::deform(tile, *at.material, dt, deformation_increment<Real, Dim>(dt, gradient));
+  OnTile<Real, Dim, C>::deform(tile, law_constants<C>(tile, *at.material), at.material->corrected, dt,
+                               deformation_increment<Real, Dim>(dt, gradient));
   if (tile.has(Field::kVelocityGradient))
     for (int c = 0; c < Dim * Dim; ++c)
       tile.put(Field::kVelocityGradient, c, Lane<Real>::load(gradient + c * kLanes));
 }
 
-template <class Real, int Dim, class OnTile>
+template <class Real, int Dim, class C, template <class, int, class> class OnTile>
 mlsrk::LawKernels<Real> law_kernels() {
-  return {volume_changes<Real, Dim, OnTile>, nullptr, stress_rows<Real, Dim, OnTile>,
-          deform<Real, Dim, OnTile>};
+  return {
+      volumes<Real, Dim, C, OnTile>,     swelling<Real, Dim, C>,       nullptr,
+      stress_rows<Real, Dim, C, OnTile>, deform<Real, Dim, C, OnTile>, change_concentration<Real, Dim, C>};
 }
 
 /// In the order of the alternatives of Law.
-template <class Real, int Dim>
+template <class Real, int Dim, class C>
 void fill_laws(mlsrk::LawKernels<Real> (&laws)[mlsrk::kLaws]) {
-  laws[0] = law_kernels<Real, Dim, HerschelBulkleyOnTile<Real, Dim>>();
-  laws[1] = law_kernels<Real, Dim, NeoHookeanOnTile<Real, Dim>>();
-  laws[2] = law_kernels<Real, Dim, DruckerPragerOnTile<Real, Dim>>();
-  laws[3] = law_kernels<Real, Dim, SnowOnTile<Real, Dim>>();
-  laws[4] = law_kernels<Real, Dim, LiquidOnTile<Real, Dim>>();
-  laws[2].correct = DruckerPragerOnTile<Real, Dim>::correct;
-  laws[4].correct = LiquidOnTile<Real, Dim>::correct;
+  laws[0] = law_kernels<Real, Dim, C, HerschelBulkleyOnTile>();
+  laws[1] = law_kernels<Real, Dim, C, NeoHookeanOnTile>();
+  laws[2] = law_kernels<Real, Dim, C, DruckerPragerOnTile>();
+  laws[3] = law_kernels<Real, Dim, C, SnowOnTile>();
+  laws[4] = law_kernels<Real, Dim, C, LiquidOnTile>();
+  laws[2].correct = correct<Real, Dim, C, DruckerPragerOnTile>;
+  laws[4].correct = correct<Real, Dim, C, LiquidOnTile>;
 }
 
 }  // namespace lather::LATHER_LEVEL

@@ -19,7 +19,7 @@ constexpr Real kSmallestPivot = sizeof(Real) == 4 ? Real(3e-4) : Real(1e-8);
 template <class Real>
 struct MakeConstants {
   int dimension;
-  MaterialConstants<Real>& to;
+  LawConstants<Real>& to;
 
   void operator()(const HerschelBulkleyParameters& p) const {
     to.herschel_bulkley = herschel_bulkley_constants<Real>(p);
@@ -44,12 +44,20 @@ struct MakeConstants {
 };
 
 template <class Real>
+LawConstants<Real> law_constants(const Law& law, const Material& material, int dimension) {
+  LawConstants<Real> c{};
+  std::visit(MakeConstants<Real>{dimension, c}, law);
+  c.swelling = static_cast<Real>(material.density() / density(law));  // J_r = rho0/rho [MLSRK eq. 30]
+  return c;
+}
+
+template <class Real>
 MaterialConstants<Real> material_constants(const Scene& scene, const Material& material, bool correctable) {
   MaterialConstants<Real> c{};
   c.volume = static_cast<Real>(scene.point_volume());
   c.mass = static_cast<Real>(material.density() * scene.point_volume());
   c.corrected = correctable && scene.numerics.mlsrk.volume_correction;
-  std::visit(MakeConstants<Real>{scene.dimension, c}, material.law);
+  c.law = law_constants<Real>(material.law, material, scene.dimension);
   return c;
 }
 
@@ -83,9 +91,18 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   const auto dimension = static_cast<std::size_t>(scene.dimension - 2);
   kernels = table.wide[dimension][static_cast<int>(n.basis)][n.kernel_shape == KernelShape::kRadial ? 1 : 0];
   positions = table.positions[dimension];
+  phases = table.phases[dimension][static_cast<int>(n.basis)][n.kernel_shape == KernelShape::kRadial ? 1 : 0];
+  static_assert(kConcentrationSteps == kConcentrationNodes);
   for (const Material& m : scene.materials) {
-    laws.push_back(table.laws[dimension][m.law.index()]);
+    swells = swells || (m.phase && m.phase->curve_of("density") != nullptr);
+    std::vector<LawConstants<Real>> constants;
+    const std::vector<Law> by_c = m.laws();
+    if (by_c.size() > 1)
+      for (const Law& law : by_c) constants.push_back(law_constants<Real>(law, m, scene.dimension));
+    laws.push_back(table.laws[dimension][constants.empty() ? 0 : 1][m.law.index()]);
     materials.push_back(material_constants<Real>(scene, m, laws.back().correct != nullptr));
+    by_concentration.push_back(std::move(constants));
+    if (!by_concentration.back().empty()) materials.back().by_concentration = by_concentration.back().data();
   }
   shape.regularization = static_cast<Real>(n.regularization);
   shape.constant_regularization = static_cast<Real>(n.regularize_constant ? n.regularization : 0);

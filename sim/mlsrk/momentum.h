@@ -47,7 +47,7 @@ void prepare_forces(const Real* shape, const Real* stress, Real* force) {
 /// m = sum_j N_i(x_j) m_j [MLSRK eq. 11]. N_i(x_j) is made with the corrections of j.
 template <class T, class Real, int Dim, class B, class W>
 void momentum(const mlsrk::MomentumStep<Real>& step, const mlsrk::Targets<Real>& targets,
-              const mlsrk::Candidates<Real>& near, const Real* force, Real* velocity, Real* light) {
+              const mlsrk::Candidates<Real>& near, const Real* force, Real* velocity, Real* lumped_mass) {
   using Row = ForceRow<Dim, B>;
   const T zero(Real(0));
   for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
@@ -71,9 +71,8 @@ void momentum(const mlsrk::MomentumStep<Real>& step, const mlsrk::Targets<Real>&
     }
     lumped = lumped * target.volume;
     const T own = Points<T>::load_row(velocity, mlsrk::kVelocityReals, 3, lane);
-    const auto heavy = lumped >= own * Real(0.1);
-    Points<T>::store(select(heavy, zero, T(Real(1))), light, lane);
-    const T mass = step.own_mass ? own : select(heavy, lumped, own);
+    Points<T>::store(lumped, lumped_mass, lane);
+    const T mass = step.own_mass ? own : select(lumped >= own * Real(mlsrk::kLightest), lumped, own);
     const T per_mass = target.volume * Real(-step.dt * step.inverse_scale) / mass;
     for (int a = 0; a < Dim; ++a) {
       const T u = Points<T>::load_row(velocity, mlsrk::kVelocityReals, a, lane);

@@ -28,7 +28,12 @@ class MlsrkSimulation final : public FrameLoop {
                                scene.spacing);
     state_.left.resize(scene.materials.size());
     seed_points(scene, [&](const Seed& s) {
-      state_.sets[s.material].add(s.position, s.velocity, s.velocity_gradient, s.id);
+      ParticleSet<Real>& set = state_.sets[s.material];
+      const PointSlot at = set.add(s.position, s.velocity, s.velocity_gradient, s.id);
+      if (const std::optional<Phase>& phase = scene.materials[s.material].phase)
+        set.template values<double>(at.tile, Field::kConcentration)[at.lane] = phase->concentration;
+      if (set.layout().has(Field::kGrip))
+        set.template values<std::uint32_t>(at.tile, Field::kGrip)[at.lane] = s.grip;
       state_.max_speed = std::max(state_.max_speed, s.velocity.norm());
     });
     record(0);
@@ -101,12 +106,15 @@ class MlsrkSimulation final : public FrameLoop {
   /// The planned step, or a shorter one while moduli are hardened, points fast or forces large.
   [[nodiscard]] double step_limit() const override {
     const Scene& s = plan_.scene;
-    const double planned = planned_step(s);
+    const double planned = planned_step(s, plan_.step_bound);
     if (s.numerics.time_step > 0) return planned;
     constexpr double kMostSpacings = 0.2;  // that a point moves in an automatic step
     constexpr double kFall = 0.25;         // of the time in which the largest acceleration covers a spacing
-    double limit = std::min(planned, s.numerics.safety_factor * step_bound(s) / std::sqrt(state_.stiffest));
-    if (state_.max_speed > 0) limit = std::min(limit, kMostSpacings * s.spacing / state_.max_speed);
+    double limit =
+        std::min(planned, s.numerics.safety_factor * plan_.step_bound / std::sqrt(state_.stiffest));
+    double speed = state_.max_speed;
+    if (!s.grips.empty()) speed = std::max(speed, stepper_.grips().fastest(state_.time, limit));
+    if (speed > 0) limit = std::min(limit, kMostSpacings * s.spacing / speed);
     if (state_.max_acceleration > 0)
       limit = std::min(limit, kFall * std::sqrt(s.spacing / state_.max_acceleration));
     return limit;
@@ -115,6 +123,7 @@ class MlsrkSimulation final : public FrameLoop {
   FrameMeasure measure_state(int index) override {
     stepper_.sort_when_drifted(state_);
     FrameMeasure m = measure_points(plan_.scene, state_.sets, threads_);
+    m.lumped = stepper_.measure_lumped(state_);
     // Points a spacing apart leave cells of one spacing empty; pieces lie out of each other's reach.
     find_pieces(state_.sets, model_.bounds, 2).put(m);
     for (std::size_t s = 0; s < state_.sets.size(); ++s) {

@@ -6,16 +6,27 @@
 #include "sim/math/parallel.h"
 
 namespace lather::mlsrk {
+namespace {
+
+template <class Real>
+bool is_light(Real lumped, Real own) {
+  return !(lumped >= own * static_cast<Real>(kLightest));
+}
+
+}  // namespace
 
 template <class Real>
 StepExtremes Stepper<Real>::step(State<Real>& state, double dt) {
   sort_when_drifted(state);
   obstacles_.place(state.time, dt);
+  grips_.place(state.time, dt);
   find_neighbours(state);
-  compute_shape_functions(state);                      // [MLSRK eq. 8, 32]
+  state.regularized += compute_shape_functions();      // [MLSRK eq. 8, 32]
+  if (model_.swells) weigh_crowding(state);            // [MLSRK eq. 19, 30]
   compute_stress(state);                               // [MLSRK eq. 19, 22, 23]
   update_velocities(state, dt);                        // [MLSRK eq. 11]
   compute_gradients();                                 // [MLSRK eq. 12, 18]
+  if (model_.scene.has_phases()) diffuse(state, dt);   // [MLSRK eq. 13-16, 30, 31]
   const StepExtremes seen = update_points(state, dt);  // [MLSRK eq. 17, 24-29]
   state.drift += seen.largest_cells;
   state.max_speed = seen.max_speed;
@@ -29,6 +40,7 @@ Stepper<Real>::Stepper(const Model<Real>& model, int threads)
     : model_(model),
       threads_(threads),
       obstacles_(model.scene, model.scene.spacing),
+      grips_(model.scene),
       cloud_(model.scene),
       clock_(threads),
       scratch_(static_cast<std::size_t>(threads)) {}
@@ -59,16 +71,56 @@ void Stepper<Real>::sort_when_drifted(State<Real>& state) {
     crowding_.assign(slots, Real(0));
     gradient_.assign(slots * dim * dim, Real(0));
     smooth_.assign(slots * dim, Real(0));
+    if (model_.scene.has_phases()) {
+      phase_.assign(slots * PhaseRow::kReals, Real(0));
+      potential_.assign(slots, Real(0));
+      flux_.assign(slots * static_cast<std::size_t>(model_.phases.flux_reals), Real(0));
+      gain_.assign(slots, Real(0));
+      lumped_volume_.assign(slots, Real(0));
+    }
     set_tiles_.clear();
     for (std::uint32_t s = 0; s < state.sets.size(); ++s)
       for (std::uint32_t t = 0; t < state.sets[s].tiles(); ++t) set_tiles_.push_back({s, t});
+    if (!grips_.none()) note_grips(state);
   });
+}
+
+template <class Real>
+void Stepper<Real>::note_grips(const State<Real>& state) {
+  grip_.assign(cloud_.slots(), 0);
+  for (const TileOfSet& at : set_tiles_) {
+    const ParticleSet<Real>& set = state.sets[at.set];
+    if (!set.layout().has(Field::kGrip)) continue;
+    const std::uint32_t* entries = set.template values<std::uint32_t>(at.tile, Field::kGrip);
+    for_points(state, at, [&](int lane, std::uint32_t slot) { grip_[slot] = entries[lane]; });
+  }
 }
 
 template <class Real>
 SetTile<Real> Stepper<Real>::set_tile(State<Real>& state, const TileOfSet& at) const {
   ParticleSet<Real>& set = state.sets[at.set];
   return {set.tile(at.tile), &set.layout(), &model_.materials[at.set]};
+}
+
+template <class Real>
+template <class Work>
+void Stepper<Real>::for_set_tiles(Stage stage, const Work& work) {
+  parallel_for(threads_, static_cast<std::int64_t>(set_tiles_.size()), 64, [&](std::int64_t index) {
+    clock_.time(stage, [&] { work(set_tiles_[static_cast<std::size_t>(index)]); });
+  });
+}
+
+template <class Real>
+template <class Kernel>
+void Stepper<Real>::on_tiles(Stage stage, const Kernel& kernel) {
+  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 4, [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    clock_.time(stage, [&] {
+      Real place[4 * kTile];
+      cloud_.load_targets(t, place);
+      kernel(t, Targets<Real>{place}, cloud_.candidates(t, scratch().candidates));
+    });
+  });
 }
 
 template <class Real>
@@ -86,13 +138,10 @@ void Stepper<Real>::find_neighbours(State<Real>& state) {
     clock_.time(Stage::kNeighbours, [&] {
       const TileOfSet& at = set_tiles_[static_cast<std::size_t>(index)];
       const SetTile<Real> tile = set_tile(state, at);
-      Real change[kTile];
-      model_.laws[at.set].volume_changes(tile, change);
+      Real volume[kTile];
+      model_.laws[at.set].volumes(tile, volume);
       for_points(state, at, [&](int lane, std::uint32_t slot) {
-        // What bears no tension and takes its volume from its neighbours has empty space beside it where that
-        // is larger than at rest, and its own volume is the latter.
-        const Real own = tile.material->corrected ? std::min(change[lane], Real(0)) : change[lane];
-        cloud_.put_volume(slot, tile.material->volume * (1 + own));
+        cloud_.put_volume(slot, volume[lane]);
         Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
         for (int a = 0; a < model_.scene.dimension; ++a)
           row[a] = state.sets[at.set].template values<Real>(at.tile, Field::kVelocity, a)[lane];
@@ -103,7 +152,7 @@ void Stepper<Real>::find_neighbours(State<Real>& state) {
 }
 
 template <class Real>
-void Stepper<Real>::compute_shape_functions(State<Real>& state) {
+std::uint64_t Stepper<Real>::compute_shape_functions() {
   const auto reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto one_tile = [&](std::int64_t index) {
     const auto t = static_cast<std::size_t>(index);
@@ -118,9 +167,21 @@ void Stepper<Real>::compute_shape_functions(State<Real>& state) {
     });
     return regularized;
   };
-  state.regularized +=
-      parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), std::uint64_t{0}, one_tile,
-                    [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
+  return parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), std::uint64_t{0}, one_tile,
+                       [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
+}
+
+template <class Real>
+void Stepper<Real>::weigh_crowding(State<Real>& state) {
+  for_set_tiles(Stage::kShapeFunctions, [&](const TileOfSet& at) {
+    Real ratio[kTile];
+    model_.laws[at.set].swelling(set_tile(state, at), ratio);
+    for_points(state, at, [&](int lane, std::uint32_t slot) { potential_[slot] = ratio[lane]; });
+  });
+  on_tiles(Stage::kShapeFunctions,
+           [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
+             model_.phases.crowding(targets, near, potential_.data(), crowding_.data() + t * kTile);
+           });
 }
 
 template <class Real>
@@ -148,6 +209,11 @@ void Stepper<Real>::compute_stress(State<Real>& state) {
   };
   state.stiffest = parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), 1.0, stress_of,
                                  [](double& most, double part) { most = std::max(most, part); });
+  prepare_forces();
+}
+
+template <class Real>
+void Stepper<Real>::prepare_forces() {
   const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto force_reals = static_cast<std::size_t>(model_.kernels.force_reals) * kTile;
   parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 64, [&](std::int64_t index) {
@@ -176,7 +242,10 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
     const auto t = static_cast<std::size_t>(index);
     Seen seen;
     clock_.time(Stage::kMomentum, [&] { seen.change_squared = accelerate(t, step, scratch(), seen.light); });
-    clock_.time(Stage::kParticleCollisions, [&] { resolve_collisions(t, scratch()); });
+    clock_.time(Stage::kParticleCollisions, [&] {
+      resolve_collisions(t, scratch());
+      if (!grips_.none()) drive_points(t);
+    });
     return seen;
   };
   const Seen seen = parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), Seen{},
@@ -188,21 +257,22 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
   state.max_acceleration = std::sqrt(seen.change_squared) / dt;
 }
 
-/// Returns the largest squared change of a velocity, (m/s)^2.
+/// Returns the largest squared change of a velocity that no grip prescribes, (m/s)^2.
 template <class Real>
 double Stepper<Real>::accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch,
                                  std::uint64_t& light) {
   Real place[4 * kTile];
-  Real too_light[kTile];
+  Real lumped[kTile];
   Real before[kTile * kVelocityReals];
   Real* rows = velocity_.data() + tile * kTile * kVelocityReals;
   std::copy_n(rows, kTile * kVelocityReals, before);
   cloud_.load_targets(tile, place);
   model_.kernels.momentum(step, {place}, cloud_.candidates(tile, scratch.candidates), force_.data(), rows,
-                          too_light);
+                          lumped);
   double largest = 0;
   for (int i = 0; i < cloud_.tiles()[tile].count; ++i) {
-    light += too_light[i] != Real(0) ? 1 : 0;
+    light += is_light(lumped[i], rows[i * kVelocityReals + 3]) ? 1 : 0;
+    if (driven(tile * kTile + static_cast<std::size_t>(i))) continue;
     double squared = 0;
     for (int a = 0; a < 3; ++a) {
       const auto change = static_cast<double>(rows[i * kVelocityReals + a] - before[i * kVelocityReals + a]);
@@ -211,6 +281,46 @@ double Stepper<Real>::accelerate(std::size_t tile, const MomentumStep<Real>& ste
     largest = std::max(largest, squared);
   }
   return largest;
+}
+
+template <class Real>
+LumpedMeasure Stepper<Real>::measure_lumped(State<Real>& state) {
+  sort_when_drifted(state);
+  find_neighbours(state);
+  (void)compute_shape_functions();
+  // Rows without stress: forces are not wanted, masses are what compute_stress() writes.
+  std::fill(stress_.begin(), stress_.end(), Real(0));
+  for (std::size_t slot = 0; slot < cloud_.slots(); ++slot)
+    stress_[slot * kStressReals + kStressReals - 1] = velocity_[slot * kVelocityReals + 3];
+  prepare_forces();
+  const auto one_tile = [&](std::int64_t index) {
+    const auto t = static_cast<std::size_t>(index);
+    Real place[4 * kTile];
+    Real lumped[kTile];
+    Real rows[kTile * kVelocityReals];
+    std::copy_n(velocity_.data() + t * kTile * kVelocityReals, kTile * kVelocityReals, rows);
+    cloud_.load_targets(t, place);
+    model_.kernels.momentum({}, {place}, cloud_.candidates(t, scratch().candidates), force_.data(), rows,
+                            lumped);
+    LumpedMeasure part;
+    for (int i = 0; i < cloud_.tiles()[t].count; ++i) {
+      const Real* row = velocity_.data() + (t * kTile + static_cast<std::size_t>(i)) * kVelocityReals;
+      const auto mass = static_cast<double>(is_light(lumped[i], row[3]) ? row[3] : lumped[i]);
+      part.mass += mass;
+      for (int a = 0; a < model_.scene.dimension; ++a) {
+        const auto u = static_cast<double>(row[a]);
+        part.momentum[static_cast<std::size_t>(a)] += mass * u;
+        part.kinetic_energy += 0.5 * mass * u * u;
+      }
+    }
+    return part;
+  };
+  return parallel_fold(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), LumpedMeasure{}, one_tile,
+                       [](LumpedMeasure& sum, const LumpedMeasure& part) {
+                         sum.mass += part.mass;
+                         sum.kinetic_energy += part.kinetic_energy;
+                         for (std::size_t a = 0; a < 3; ++a) sum.momentum[a] += part.momentum[a];
+                       });
 }
 
 template <class Real>
@@ -236,22 +346,97 @@ void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
   }
 }
 
+/// Gives the points of grips their prescribed velocities.
+template <class Real>
+void Stepper<Real>::drive_points(std::size_t tile) {
+  const std::size_t first = tile * kTile;
+  for (std::size_t slot = first; slot < first + static_cast<std::size_t>(cloud_.tiles()[tile].count);
+       ++slot) {
+    if (!driven(slot)) continue;
+    const Vec3 v = grips_.velocity(grip_[slot], cloud_.position(static_cast<std::uint32_t>(slot)));
+    for (int a = 0; a < model_.scene.dimension; ++a)
+      velocity_[slot * kVelocityReals + static_cast<std::size_t>(a)] = static_cast<Real>(v[a]);
+  }
+}
+
 template <class Real>
 void Stepper<Real>::compute_gradients() {
   const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto dim = static_cast<std::size_t>(model_.scene.dimension);
   const auto inverse_scale = static_cast<Real>(1 / cloud_.scale());
-  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 4, [&](std::int64_t index) {
-    const auto t = static_cast<std::size_t>(index);
-    clock_.time(Stage::kVelocityGradients, [&] {
-      Real place[4 * kTile];
-      cloud_.load_targets(t, place);
-      model_.kernels.gradients(model_.shape, inverse_scale, {place},
-                               cloud_.candidates(t, scratch().candidates), shape_.data() + t * shape_reals,
-                               velocity_.data() + t * kTile * kVelocityReals, velocity_.data(),
-                               gradient_.data() + t * dim * dim * kTile, smooth_.data() + t * dim * kTile);
+  on_tiles(Stage::kVelocityGradients, [&](std::size_t t, const Targets<Real>& targets,
+                                          const Candidates<Real>& near) {
+    model_.kernels.gradients(model_.shape, inverse_scale, targets, near, shape_.data() + t * shape_reals,
+                             velocity_.data() + t * kTile * kVelocityReals, velocity_.data(),
+                             gradient_.data() + t * dim * dim * kTile, smooth_.data() + t * dim * kTile);
+  });
+}
+
+/// Rows of what the points show their neighbours; `value` is c, or the potential once that is known.
+template <class Real>
+void Stepper<Real>::show_concentrations(State<Real>& state) {
+  const bool by_volume = model_.scene.numerics.mlsrk.phases.balance == PhaseBalance::kConcentration;
+  for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
+    const std::optional<Phase>& phase = model_.scene.materials[at.set].phase;
+    if (!phase) return;
+    const double* c = state.sets[at.set].template values<double>(at.tile, Field::kConcentration);
+    for_points(state, at, [&](int lane, std::uint32_t slot) {
+      Real* row = phase_.data() + std::size_t{slot} * PhaseRow::kReals;
+      row[PhaseRow::kValue] = static_cast<Real>(c[lane]);
+      row[PhaseRow::kMember] = Real(1);
+      const Real amount = by_volume ? cloud_.volume(slot) : model_.materials[at.set].mass;
+      row[PhaseRow::kMobility] = amount * static_cast<Real>(phase->mobility);
     });
   });
+}
+
+template <class Real>
+void Stepper<Real>::diffuse(State<Real>& state, double dt) {
+  const PhaseNumerics& n = model_.scene.numerics.mlsrk.phases;
+  const double width = n.interface_width.value_or(cloud_.scale());
+  const PhaseStep<Real> step = {static_cast<Real>(1 / cloud_.scale()), static_cast<Real>(width * width),
+                                n.free_energy == FreeEnergy::kDoubleWell};
+  const PhaseKernels<Real>& kernels = model_.phases;
+  const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
+  const auto flux_reals = static_cast<std::size_t>(kernels.flux_reals) * kTile;
+  constexpr std::size_t kRows = PhaseRow::kReals * kTile;
+  show_concentrations(state);
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
+    kernels.potentials(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
+                       phase_.data(), potential_.data() + t * kTile);
+  });
+  for (std::size_t slot = 0; slot < potential_.size(); ++slot)
+    phase_[slot * PhaseRow::kReals + PhaseRow::kValue] = potential_[slot];
+  std::vector<Real>& returned = potential_;  // no longer needed itself
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
+    kernels.fluxes(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
+                   phase_.data(), flux_.data() + t * flux_reals, returned.data() + t * kTile);
+  });
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
+    kernels.gains(step, targets, near, flux_.data(), gain_.data() + t * kTile,
+                  lumped_volume_.data() + t * kTile);
+  });
+  for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
+    if (!model_.scene.materials[at.set].phase) return;
+    double change[kTile] = {};
+    for_points(state, at, [&](int lane, std::uint32_t slot) {
+      change[lane] = dt * static_cast<double>(gain_[slot] + returned[slot]) / inertia(at.set, slot);
+    });
+    model_.laws[at.set].change_concentration(set_tile(state, at), change);
+  });
+}
+
+/// What a gain is divided by, for the rate of c.
+template <class Real>
+double Stepper<Real>::inertia(std::uint32_t set, std::uint32_t slot) const {
+  const PhaseBalance balance = model_.scene.numerics.mlsrk.phases.balance;
+  const auto mass = static_cast<double>(model_.materials[set].mass);
+  if (balance == PhaseBalance::kMass) return mass;
+  const auto own = static_cast<double>(cloud_.volume(slot));
+  const double lumped =
+      static_cast<double>(lumped_volume_[slot]) * std::pow(cloud_.scale(), model_.scene.dimension);
+  const double volume = lumped >= 0.1 * own ? lumped : own;  // few neighbours can make it 0, or less
+  return balance == PhaseBalance::kConcentration ? volume : mass / own * volume;
 }
 
 template <class Real>
@@ -278,8 +463,10 @@ StepExtremes Stepper<Real>::update_points(State<Real>& state, double dt) {
         for (int c = 0; c < dim * dim; ++c)
           gradient[c * kTile + lane] =
               gradient_[(t * reals * reals + static_cast<std::size_t>(c)) * kTile + i];
+        const bool blended = !driven(slot);
         for (int a = 0; a < dim; ++a) {
-          smooth[a * kTile + lane] = smooth_[(t * reals + static_cast<std::size_t>(a)) * kTile + i];
+          if (blended)
+            smooth[a * kTile + lane] = smooth_[(t * reals + static_cast<std::size_t>(a)) * kTile + i];
           velocity[a * kTile + lane] =
               velocity_[std::size_t{slot} * kVelocityReals + static_cast<std::size_t>(a)];
         }

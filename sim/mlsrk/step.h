@@ -5,8 +5,10 @@
 #include "sim/collide/obstacles.h"
 #include "sim/frame_loop.h"
 #include "sim/mlsrk/cloud.h"
+#include "sim/mlsrk/grips.h"
 #include "sim/mlsrk/levels.h"
 #include "sim/particles/particle_set.h"
+#include "sim/report/report.h"
 
 namespace lather::mlsrk {
 
@@ -14,14 +16,20 @@ namespace lather::mlsrk {
 template <class Real>
 struct Model {
   explicit Model(const Plan& plan);
+  Model(const Model&) = delete;  // constants of materials point into by_concentration
+  Model& operator=(const Model&) = delete;
 
   Scene scene;
   Kernels<Real> kernels;
   TileExtremes (*positions)(const SetTile<Real>&, const MoveStep<Real>&, const Real*, const Real*);
   std::vector<MaterialConstants<Real>> materials;
   std::vector<LawKernels<Real>> laws;  ///< one a material
+  PhaseKernels<Real> phases;
+  std::vector<std::vector<LawConstants<Real>>>
+      by_concentration;  ///< one a material; empty where none changes
   ShapeConstants<Real> shape;
   Real lattice_crowding;  ///< sum_j Phi of a point inside a full lattice: V/V0 = 1 [MLSRK eq. 19]
+  bool swells = false;    ///< some volume at rest changes with the concentration
   CellBounds bounds;
   Walls walls;
 };
@@ -57,10 +65,14 @@ class Stepper {
   /// counts those that left an open domain.
   void sort_when_drifted(State<Real>& state);
 
+  /// Sums with the lumped masses of the present places, as the next step will have them.
+  [[nodiscard]] LumpedMeasure measure_lumped(State<Real>& state);
+
   /// Drops the tiles, so that the next step makes them anew; after a restore.
   void forget_tiles() { cloud_.clear(); }
 
   [[nodiscard]] const StageClock& clock() const { return clock_; }
+  [[nodiscard]] const Grips& grips() const { return grips_; }
 
  private:
   /// Memory of one thread.
@@ -75,23 +87,40 @@ class Stepper {
   };
 
   void find_neighbours(State<Real>& state);
-  void compute_shape_functions(State<Real>& state);
+  /// Returns how many moment matrices needed more than the constants' r.
+  std::uint64_t compute_shape_functions();
+  void weigh_crowding(State<Real>& state);
   void compute_stress(State<Real>& state);
+  void prepare_forces();
   void update_velocities(State<Real>& state, double dt);
   double accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch, std::uint64_t& light);
   void resolve_collisions(std::size_t tile, Scratch& scratch);
+  void drive_points(std::size_t tile);
   void compute_gradients();
+  void diffuse(State<Real>& state, double dt);
+  void show_concentrations(State<Real>& state);
+  [[nodiscard]] double inertia(std::uint32_t set, std::uint32_t slot) const;
   StepExtremes update_points(State<Real>& state, double dt);
 
   [[nodiscard]] SetTile<Real> set_tile(State<Real>& state, const TileOfSet& at) const;
+  /// Calls work(tile) for the sets' tiles, in parallel.
+  template <class Work>
+  void for_set_tiles(Stage stage, const Work& work);
+  /// Calls kernel(tile, its points, those near it) for the cloud's tiles, in parallel.
+  template <class Kernel>
+  void on_tiles(Stage stage, const Kernel& kernel);
   /// Calls visit(lane, slot) for the points of a set's tile.
   template <class Visit>
   void for_points(const State<Real>& state, const TileOfSet& at, const Visit& visit) const;
+  /// Does a grip prescribe the velocity of the slot's point in this step?
+  [[nodiscard]] bool driven(std::size_t slot) const { return !grip_.empty() && grips_.drives(grip_[slot]); }
+  void note_grips(const State<Real>& state);
   [[nodiscard]] Scratch& scratch() { return scratch_[static_cast<std::size_t>(thread_index())]; }
 
   const Model<Real>& model_;
   int threads_;
   Obstacles obstacles_;
+  Grips grips_;
   Cloud<Real> cloud_;
   StageClock clock_;
   std::vector<Scratch> scratch_;
@@ -101,9 +130,16 @@ class Stepper {
   std::vector<Real> shape_;
   std::vector<Real> stress_;
   std::vector<Real> force_;
-  std::vector<Real> crowding_;  // one a slot
-  std::vector<Real> gradient_;  // [dim dim][16] a tile
-  std::vector<Real> smooth_;    // [dim][16] a tile
+  std::vector<Real> crowding_;       // one a slot
+  std::vector<std::uint32_t> grip_;  // Field::kGrip, one a slot; empty without grips
+  std::vector<Real> gradient_;       // [dim dim][16] a tile
+  std::vector<Real> smooth_;         // [dim][16] a tile
+  // Of phases only:
+  std::vector<Real> phase_;
+  std::vector<Real> flux_;
+  std::vector<Real> potential_;      // one a slot; volumes at rest, and what fluxes give back, too
+  std::vector<Real> gain_;           // one a slot
+  std::vector<Real> lumped_volume_;  // one a slot, over a^dim
 };
 
 }  // namespace lather::mlsrk

@@ -69,7 +69,7 @@ class MpmSimulation final : public FrameLoop {
   /// The step of this moment: the planned one, shorter while points are fast.
   [[nodiscard]] double step_limit() const override {
     const Scene& s = plan_.scene;
-    const double planned = planned_step(s);
+    const double planned = planned_step(s, plan_.step_bound);
     if (s.numerics.time_step > 0 || state_.max_speed == 0) return planned;
     constexpr double kMostCells = 0.3;  // a point moves at most this far in an automatic step
     return std::min(planned, kMostCells * s.spacing / state_.max_speed);

@@ -33,9 +33,11 @@ bool has_contact(const Scene& scene) {
 
 std::vector<std::string> mlsrk_stages(const Scene& scene) {
   std::vector<std::string> stages;
-  for (const Stage stage : kMlsrkStages)
-    if (stage != Stage::kParticleCollisions || has_contact(scene))
-      stages.emplace_back(kStageNames[static_cast<std::size_t>(stage)]);
+  for (const Stage stage : kMlsrkStages) {
+    if (stage == Stage::kParticleCollisions && !has_contact(scene) && scene.grips.empty()) continue;
+    if (stage == Stage::kPhases && !scene.has_phases()) continue;
+    stages.emplace_back(kStageNames[static_cast<std::size_t>(stage)]);
+  }
   return stages;
 }
 
@@ -98,6 +100,7 @@ void warn_of_colours(Plan& plan) {
   if (by == "plastic_strain" &&
       none([](const Material& m) { return std::holds_alternative<HerschelBulkleyParameters>(m.law); }))
     plan.warnings.push_back(everywhere + "is of the model \"herschel-bulkley\".");
+  if (by == "concentration" && !s.has_phases()) plan.warnings.push_back(everywhere + "has a \"phase\".");
 }
 
 void warn_of_the_step(Plan& plan) {
@@ -150,7 +153,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   plan.step_bound = step_bound(scene);
   plan.frames = scene.last_frame() + 1;
   const double frame_span = 1 / scene.frame_rate;
-  const double per_frame = steps_for(frame_span, planned_step(scene));
+  const double per_frame = steps_for(frame_span, planned_step(scene, plan.step_bound));
   plan.time_step = frame_span / per_frame;
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
   plan.scalars = planned_scalars(scene);
@@ -168,7 +171,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
       m.fields.push_back({to_string(f), layout.components[at] * layout.component_bytes[at]});
     }
     m.bytes_per_point = layout.stride / kTile;
-    m.wave_speed = wave_speed(scene.materials[i]);
+    m.wave_speed = wave_speed(scene.materials[i].law);
     m.numerical_viscosity = numerical_viscosity(scene, scene.materials[i].density(), plan.time_step);
     plan.points += m.points;
     plan.points_emitted += m.points_emitted;

@@ -35,6 +35,17 @@ struct LawFields {
   }
 };
 
+/// Can a grip take points of the material?
+bool may_be_gripped(const Scene& scene, const std::string& material) {
+  for (const Grip& grip : scene.grips)
+    for (const Body& body : scene.bodies) {
+      if (!grip.body.empty() && grip.body != body.name) continue;
+      const std::vector<std::string> names = body.material_names();
+      if (std::find(names.begin(), names.end(), material) != names.end()) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> planned_scalars(const Scene& scene) {
@@ -52,6 +63,8 @@ std::vector<Field> planned_fields(const Scene& scene, const Material& material) 
     std::vector<Field> fields = {Field::kFraction, Field::kVelocity};
     const std::vector<Field> law = std::visit(LawFields{plastic_strain}, material.law);
     fields.insert(fields.end(), law.begin(), law.end());
+    if (material.phase) fields.push_back(Field::kConcentration);
+    if (may_be_gripped(scene, material.name)) fields.push_back(Field::kGrip);
     fields.insert(fields.end(), {Field::kId, Field::kCell});
     return fields;
   }

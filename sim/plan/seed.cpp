@@ -138,6 +138,45 @@ std::uint32_t material_index(const Scene& scene, const std::string& name) {
   return i;
 }
 
+/// Which material each point of a body is of.
+class MaterialChoice {
+ public:
+  MaterialChoice(const Scene& scene, std::size_t body)
+      : random_(random_bits(scene.seed, kMixtures, static_cast<std::uint64_t>(body))) {
+    const Body& b = scene.bodies[body];
+    for (const std::string& name : b.material_names()) materials_.push_back(material_index(scene, name));
+    for (const MixturePart& part : b.mixture) up_to_.push_back(share_so_far() + part.share);
+  }
+
+  [[nodiscard]] std::uint32_t of(std::uint64_t key) const {
+    if (up_to_.empty()) return materials_.front();
+    const double drawn = random_unit(random_, key) * up_to_.back();
+    std::size_t i = 0;
+    while (i + 1 < up_to_.size() && drawn >= up_to_[i]) ++i;
+    return materials_[i];
+  }
+
+ private:
+  /// Keeps these random numbers apart from those of jitter and emitters.
+  static constexpr std::uint64_t kMixtures = 0x6d69787475726573U;
+
+  [[nodiscard]] double share_so_far() const { return up_to_.empty() ? 0.0 : up_to_.back(); }
+
+  std::uint64_t random_;
+  std::vector<std::uint32_t> materials_;
+  std::vector<double> up_to_;
+};
+
+/// 1 + index of the first grip that takes a point of `body` at `x` (m); 0 for none.
+std::uint32_t grip_at(const Scene& scene, const Body& body, const Vec3& x) {
+  for (std::uint32_t g = 0; g < scene.grips.size(); ++g) {
+    const Grip& grip = scene.grips[g];
+    const bool owned = grip.body.empty() || grip.body == body.name;
+    if (owned && (grip.shape == nullptr || distance(*grip.shape, x) < 0)) return g + 1;
+  }
+  return 0;
+}
+
 Mat3 spin_matrix(const Vec3& spin) {
   Mat3 m;
   m << 0, -spin.z(), spin.y(), spin.z(), 0, -spin.x(), -spin.y(), spin.x(), 0;
@@ -163,6 +202,21 @@ Vec3 center_of_body(const Scene& scene, std::size_t body) {
       {"/bodies/" + std::to_string(body) + "/shape", "", "at least one point",
        "No point of the lattice lies inside this body: it is outside the domain, hidden by earlier "
        "bodies, or thinner than the distance of points; move or enlarge it, or lower \"spacing\"."});
+}
+
+/// Throws when some grip takes no point.
+void check_grips(const Scene& scene) {
+  std::vector<bool> taken(scene.grips.size() + 1, false);
+  for (std::size_t b = 0; b < scene.bodies.size() && !scene.grips.empty(); ++b)
+    for_points_of_body(scene, b, [&](std::uint64_t key, const Vec3& x) {
+      taken[grip_at(scene, scene.bodies[b], jittered(scene, scene.seed, key, x))] = true;
+    });
+  for (std::size_t g = 0; g < scene.grips.size(); ++g)
+    if (!taken[g + 1])
+      throw InputError(
+          {{"/grips/" + std::to_string(g), write_json(Value(scene.grips[g].name)), "at least one point",
+            "No point of a body lies inside this grip, or earlier grips take them all; move or "
+            "enlarge its \"shape\", or name another \"body\"."}});
 }
 
 /// Points of one release; throws when its shape holds none.
@@ -215,12 +269,14 @@ void seed_points(const Scene& scene, const std::function<void(const Seed&)>& vis
   Seed seed;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
-    seed.material = material_index(scene, body.material);
+    const MaterialChoice materials(scene, b);
     const Vec3 center = center_of_body(scene, b);
     const Vec3 spin = body.spin_deg * (std::numbers::pi / 180);
     seed.velocity_gradient = body.velocity_gradient + spin_matrix(spin);
     for_points_of_body(scene, b, [&](std::uint64_t key, const Vec3& x) {
+      seed.material = materials.of(key);
       seed.position = jittered(scene, scene.seed, key, x);
+      seed.grip = grip_at(scene, body, seed.position);
       seed.velocity =
           body.velocity + body.velocity_gradient * seed.position + spin.cross(seed.position - center);
       visit(seed);
@@ -255,10 +311,14 @@ PointCounts count_points(const Scene& scene) {
   counts.emitted.assign(scene.materials.size(), 0);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     std::uint64_t own = 0;
-    for_points_of_body(scene, b, [&](std::uint64_t, const Vec3&) { ++own; });
+    const MaterialChoice materials(scene, b);
+    for_points_of_body(scene, b, [&](std::uint64_t key, const Vec3&) {
+      ++own;
+      ++counts.at_start[materials.of(key)];
+    });
     if (own == 0) (void)center_of_body(scene, b);  // throws with the reason
-    counts.at_start[material_index(scene, scene.bodies[b].material)] += own;
   }
+  check_grips(scene);
   double total = 0;
   for (const std::uint64_t own : counts.at_start) total += static_cast<double>(own);
   for (std::size_t e = 0; e < scene.emitters.size(); ++e) {

@@ -15,6 +15,7 @@ struct Seed {
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   Mat3 velocity_gradient = Mat3::Zero();
+  std::uint32_t grip = 0;  ///< 1 + index into Scene::grips; 0: free
 };
 
 /// Distance of neighbouring points of the initial lattice, m.
@@ -42,7 +43,7 @@ struct PointCounts {
 /// Fills the bodies with a regular lattice of points, `points_per_cell` to a cell, jittered by the scene's
 /// `jitter` with counter-based random numbers keyed by seed and lattice place. A place that two bodies cover
 /// goes to the earlier one. Calls visit(seed) in a fixed order. Throws InputError when a body gets no point,
-/// or the scene has none.
+/// or the scene has none. The material of a point of a mixture is a counter-based random number too.
 void seed_points(const Scene& scene, const std::function<void(const Seed&)>& visit);
 
 /// The same for the points of one release; ids count from 0.
@@ -51,7 +52,8 @@ void seed_release(const Scene& scene, const Release& release, const std::functio
 /// Time in which a stream moves by one distance of points, s.
 [[nodiscard]] double layer_interval(const Scene& scene, const Emitter& emitter);
 
-/// Counts without making all points at once. Throws InputError when a body or an emitter gets no point.
+/// Counts without making all points at once. Throws InputError when a body, an emitter or a grip gets no
+/// point.
 [[nodiscard]] PointCounts count_points(const Scene& scene);
 
 }  // namespace lather

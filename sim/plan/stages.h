@@ -30,16 +30,17 @@ enum class Stage : int {
   kStress,             ///< [MLSRK eq. 22, 23]
   kMomentum,           ///< accelerations and velocities [MLSRK eq. 11]
   kVelocityGradients,  ///< and the velocities that they are blended with [MLSRK eq. 12, 18]
-  kDeformation,        ///< deformation, return mappings [MLSRK eq. 17, 19, 24-29]
+  kPhases,       ///< concentrations, and what swells with them; only with phases [MLSRK eq. 13-16, 30, 31]
+  kDeformation,  ///< deformation, return mappings [MLSRK eq. 17, 19, 24-29]
 };
-inline constexpr int kStageCount = 23;
+inline constexpr int kStageCount = 24;
 inline constexpr int kMpmStageCount = static_cast<int>(Stage::kNeighbours);  ///< they stand first
 
 /// Those of the MLSRK solver, in the order in which they run.
-inline constexpr std::array<Stage, 9> kMlsrkStages = {
-    Stage::kSort,     Stage::kNeighbours,         Stage::kShapeFunctions,    Stage::kStress,
-    Stage::kMomentum, Stage::kParticleCollisions, Stage::kVelocityGradients, Stage::kDeformation,
-    Stage::kPositions};
+inline constexpr std::array<Stage, 10> kMlsrkStages = {
+    Stage::kSort,        Stage::kNeighbours,         Stage::kShapeFunctions,    Stage::kStress,
+    Stage::kMomentum,    Stage::kParticleCollisions, Stage::kVelocityGradients, Stage::kPhases,
+    Stage::kDeformation, Stage::kPositions};
 
 inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "sort",
@@ -63,6 +64,7 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {"emit",
                                                                      "stress",
                                                                      "momentum",
                                                                      "velocity gradients",
+                                                                     "phases",
                                                                      "deformation"};
 
 /// Whether the stage runs on its own and its time is known; else it is a part of the stage before it, whose

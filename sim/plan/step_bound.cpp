@@ -10,7 +10,7 @@ double wave_speed(const HerschelBulkleyParameters& law) {
   return std::sqrt((law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus) / law.density);
 }
 
-double wave_speed(const Material& material) {
+double wave_speed(const Law& law) {
   struct Speed {
     double operator()(const HerschelBulkleyParameters& p) const { return wave_speed(p); }
     double operator()(const NeoHookeanParameters& p) const { return of(p.elastic); }
@@ -21,10 +21,10 @@ double wave_speed(const Material& material) {
       return std::sqrt((p.lame_lambda() + 2 * p.lame_mu()) / p.density);
     }
   };
-  return std::visit(Speed{}, material.law);
+  return std::visit(Speed{}, law);
 }
 
-double viscous_diffusion(const Material& material, int dimension) {
+double viscous_diffusion(const Law& law, int dimension) {
   struct Viscous {
     ViscousParameters operator()(const HerschelBulkleyParameters&) const { return {}; }
     ViscousParameters operator()(const NeoHookeanParameters& p) const { return p.viscous; }
@@ -32,31 +32,45 @@ double viscous_diffusion(const Material& material, int dimension) {
     ViscousParameters operator()(const SnowParameters&) const { return {}; }
     ViscousParameters operator()(const LiquidParameters& p) const { return p.viscous; }
   };
-  const ViscousParameters v = std::visit(Viscous{}, material.law);
+  const ViscousParameters v = std::visit(Viscous{}, law);
   const double along = 2 * (1 - 1.0 / dimension) * v.viscosity + v.bulk_viscosity;
-  return (along + v.viscosity) / material.density();
+  return (along + v.viscosity) / density(law);
+}
+
+double phase_step_bound(const Scene& scene) {
+  double mobility = 0;
+  for (const Material& m : scene.materials)
+    if (m.phase) mobility = std::max(mobility, m.phase->mobility);
+  const double a = 0.5 * scene.numerics.mlsrk.support_radius * scene.spacing;
+  const double width = scene.numerics.mlsrk.phases.interface_width.value_or(a);
+  const double squared_wave_number = scene.dimension / (scene.spacing * scene.spacing);
+  const double rate = mobility * squared_wave_number * (2 + width * width * 7 / (a * a));
+  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
 }
 
 double step_bound(const Scene& scene) {
-  double bound = std::numeric_limits<double>::infinity();
+  double bound = phase_step_bound(scene);
   const auto count = [&](const std::string& name) {
     for (const Material& m : scene.materials) {
       if (m.name != name) continue;
-      bound = std::min(bound, scene.spacing / wave_speed(m));
-      const double diffusion = viscous_diffusion(m, scene.dimension);
-      if (diffusion > 0) bound = std::min(bound, scene.spacing * scene.spacing / (2 * diffusion));
+      for (const Law& law : m.laws()) {
+        bound = std::min(bound, scene.spacing / wave_speed(law));
+        const double diffusion = viscous_diffusion(law, scene.dimension);
+        if (diffusion > 0) bound = std::min(bound, scene.spacing * scene.spacing / (2 * diffusion));
+      }
     }
   };
-  for (const Body& body : scene.bodies) count(body.material);
+  for (const Body& body : scene.bodies)
+    for (const std::string& name : body.material_names()) count(name);
   for (const Emitter& emitter : scene.emitters) count(emitter.material);
   return bound;
 }
 
-double planned_step(const Scene& scene) {
+double planned_step(const Scene& scene, double bound) {
   const Numerics& n = scene.numerics;
   const double factor = n.integration == Integration::kSemiImplicit ? n.implicit_step_factor : 1;
   const double step =
-      n.time_step > 0 ? n.time_step : std::min(factor * n.safety_factor * step_bound(scene), n.max_time_step);
+      n.time_step > 0 ? n.time_step : std::min(factor * n.safety_factor * bound, n.max_time_step);
   return std::min(step, 1 / scene.frame_rate);
 }
 

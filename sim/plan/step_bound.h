@@ -8,15 +8,23 @@ namespace lather {
 [[nodiscard]] double wave_speed(const HerschelBulkleyParameters& law);
 /// The same of any law, m/s: sqrt((lambda + 2 mu) / rho) of elastic ones, sqrt(K / rho) of liquids. Hardening
 /// (snow, drucker-prager) is left out: it starts at 1, and the running step counts what it has come to.
-[[nodiscard]] double wave_speed(const Material& material);
+[[nodiscard]] double wave_speed(const Law& law);
 
 /// Diffusion of velocity by a law's Newtonian viscosity, m^2/s: of its change along the direction it varies
 /// in, (2 (1 - 1/d) mu_v + zeta_v) / rho, and across it, mu_v / rho, together, as surfaces mix both.
 /// [MLSRK eq. 23]
-[[nodiscard]] double viscous_diffusion(const Material& material, int dimension);
+[[nodiscard]] double viscous_diffusion(const Law& law, int dimension);
 
-/// Longest step that waves and, in the MLSRK solver, viscosity allow, s; without the safety factor. The
-/// smallest, over materials, of spacing / wave speed and spacing^2 / (2 viscous_diffusion()).
+/// Longest step that the diffusion of concentrations allows, s, without the safety factor. A mode of wave
+/// number k fades at the rate L (H'' k^2 + eps^2 k^2 |lap|), H'' <= 2 [MLSRK eq. 13-16]. k^2 <= d /
+/// spacing^2, see step_bound(); the Laplacian's symbol is 2 d (1 - w(k)) over the second moment of the
+/// kernel, d a^2 / 3 or a little less, w >= 0 its transform, so below 7 / a^2. Half of what explicit steps
+/// then bear.
+[[nodiscard]] double phase_step_bound(const Scene& scene);
+
+/// Longest step that waves and, in the MLSRK solver, viscosity and diffusion allow, s; without the safety
+/// factor. The smallest, over materials and concentrations, of spacing / wave speed and spacing^2 /
+/// (2 viscous_diffusion()), and phase_step_bound().
 ///
 /// Both are below what explicit steps bear. In a lattice a gradient that is exact for linear functions sees a
 /// wave number of 1/spacing at the most along each axis, so k^2 <= d / spacing^2; waves are stable to
@@ -24,9 +32,9 @@ namespace lather {
 /// at surfaces are left to the safety factor.
 [[nodiscard]] double step_bound(const Scene& scene);
 
-/// The step before points are fast: fixed, or safety factor times the bound (semi-implicit: times
-/// implicit_step_factor), at most max_time_step and a frame, s.
-[[nodiscard]] double planned_step(const Scene& scene);
+/// The step before points are fast: fixed, or safety factor times `bound`, the scene's step_bound()
+/// (semi-implicit: times implicit_step_factor), at most max_time_step and a frame, s.
+[[nodiscard]] double planned_step(const Scene& scene, double bound);
 
 /// alpha of a step of length dt: flip_blend^(dt / flip_blend_reference_step), so that the blend acts per
 /// time.

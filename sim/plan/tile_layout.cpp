@@ -29,6 +29,10 @@ const char* to_string(Field field) {
       return "plastic volume change Jp - 1";
     case Field::kVelocityGradient:
       return "velocity gradient";
+    case Field::kConcentration:
+      return "concentration";
+    case Field::kGrip:
+      return "grip";
     case Field::kId:
       return "id";
     case Field::kCell:
@@ -61,6 +65,9 @@ TileLayout make_layout(int dimension, const std::vector<Field>& fields) {
         return {1, real};
       case Field::kDeformation:
         return {d == 3 ? 9 : 5, real};
+      case Field::kConcentration:
+        return {1, 8};
+      case Field::kGrip:
       case Field::kId:
         return {1, 4};
       case Field::kCell:

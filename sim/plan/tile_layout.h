@@ -25,10 +25,12 @@ enum class Field : int {
   kPlasticity,        ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
   kPlasticVolume,     ///< J_p - 1, dimensionless
   kVelocityGradient,  ///< of the last step, row by row, 1/s
-  kId,                ///< uint32, stable over the run; kNoPoint in empty lanes
-  kCell,              ///< int16 per axis, cell index from the domain's lower corner
+  kConcentration,  ///< c, dimensionless, double in every run: a step's change may be below a float's digits
+  kGrip,           ///< uint32, 1 + index into Scene::grips; 0: free
+  kId,             ///< uint32, stable over the run; kNoPoint in empty lanes
+  kCell,           ///< int16 per axis, cell index from the domain's lower corner
 };
-inline constexpr int kFieldCount = 13;
+inline constexpr int kFieldCount = 15;
 inline constexpr std::uint32_t kNoPoint = 0xffffffffU;
 
 /// A position is a cell index plus a fixed-point fraction of the cell width: plain floats would not move at a

@@ -19,16 +19,19 @@ class PointMeasure {
  public:
   PointMeasure(const Scene& scene, const Material& material, const ParticleSet<Real>& set)
       : scene_(scene),
-        law_(material.law),
+        laws_(material.laws()),
         density_(material.density()),
+        density_curve_(material.phase ? material.phase->curve_of("density") : nullptr),
         tear_threshold_(static_cast<Real>(material.tearing.tear_threshold)),
         set_(set),
         volume_(scene.point_volume()),
         moment_((scene.numerics.kernel == Kernel::kCubic ? 1.0 / 3.0 : 0.25) * scene.spacing *
                 scene.spacing) {}
 
-  [[nodiscard]] static FrameMeasure empty() {
+  [[nodiscard]] static FrameMeasure empty(const Scene& scene) {
     FrameMeasure m;
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    if (scene.has_phases()) m.phases = {0, kNone, -kNone, 0};
     m.lowest.setConstant(std::numeric_limits<double>::infinity());
     m.highest.setConstant(-std::numeric_limits<double>::infinity());
     m.min_volume_ratio = std::numeric_limits<double>::infinity();
@@ -51,16 +54,43 @@ class PointMeasure {
     m.gravity_energy -= mass * scene_.gravity.dot(x);
     m.max_speed = std::max(m.max_speed, v.norm());
     const double j = set_.volume_change(t, lane);
-    const ElasticEnergy e = elastic_energy(law_, state_of(t, lane, j));
-    m.elastic_volume_energy += volume * e.volume;
-    m.elastic_shear_energy += volume * e.shear;
+    const Law& law = law_of(t, lane);
+    const double rest_volume = mass / rest_density(t, lane);  // swollen or shrunk
+    if (set_.layout().has(Field::kConcentration))
+      add_phase(*m.phases, concentration(t, lane), mass, rest_volume);
+    const ElasticEnergy e = elastic_energy(law, state_of(t, lane, j));
+    m.elastic_volume_energy += rest_volume * e.volume;
+    m.elastic_shear_energy += rest_volume * e.shear;
     m.min_volume_ratio = std::min(m.min_volume_ratio, 1 + j);
     m.max_volume_ratio = std::max(m.max_volume_ratio, 1 + j);
     if (set_.layout().has(Field::kPlasticity) && at(t, lane, Field::kPlasticity, 0) > tear_threshold_)
       m.weak_fraction += 1;
   }
 
+  /// Sums and extremes of the points with a concentration.
+  static void fold(PhaseMeasure& sum, const PhaseMeasure& part) {
+    sum.component_mass += part.component_mass;
+    sum.rest_volume += part.rest_volume;
+    sum.least = std::min(sum.least, part.least);
+    sum.largest = std::max(sum.largest, part.largest);
+  }
+
  private:
+  static void add_phase(PhaseMeasure& sum, double c, double mass, double rest_volume) {
+    fold(sum, {mass * c, c, c, rest_volume});
+  }
+  [[nodiscard]] double concentration(std::size_t t, int lane) const {
+    return set_.template values<double>(t, Field::kConcentration)[lane];
+  }
+  [[nodiscard]] double rest_density(std::size_t t, int lane) const {
+    return density_curve_ != nullptr ? value_at(*density_curve_, concentration(t, lane)) : density_;
+  }
+  /// The law at the nearest tabulated concentration.
+  [[nodiscard]] const Law& law_of(std::size_t t, int lane) const {
+    if (laws_.size() == 1) return laws_.front();
+    const double c = std::clamp(concentration(t, lane), 0.0, 1.0);
+    return laws_[static_cast<std::size_t>(std::lround(c * kConcentrationNodes))];
+  }
   [[nodiscard]] double at(std::size_t t, int lane, Field f, int c) const {
     return static_cast<double>(set_.template values<Real>(t, f, c)[lane]);
   }
@@ -87,9 +117,10 @@ class PointMeasure {
   }
 
   const Scene& scene_;
-  const Law& law_;
-  double density_;
-  double tear_threshold_;  ///< as rounded for the kernels
+  std::vector<Law> laws_;       // by concentration, or one
+  double density_;              // at t = 0
+  const Curve* density_curve_;  // null: it does not change
+  double tear_threshold_;       ///< as rounded for the kernels
   const ParticleSet<Real>& set_;
   double volume_;
   double moment_;
@@ -123,13 +154,14 @@ void fold(FrameMeasure& sum, const FrameMeasure& part) {
   sum.min_volume_ratio = std::min(sum.min_volume_ratio, part.min_volume_ratio);
   sum.max_volume_ratio = std::max(sum.max_volume_ratio, part.max_volume_ratio);
   sum.weak_fraction += part.weak_fraction;  // a count, until the end
+  if (sum.phases) PointMeasure<float>::fold(*sum.phases, *part.phases);
 }
 
 }  // namespace
 
 template <class Real>
 FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Real>>& sets, int threads) {
-  FrameMeasure sum = PointMeasure<Real>::empty();
+  FrameMeasure sum = PointMeasure<Real>::empty(scene);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet<Real>& set = sets[s];
     const PointMeasure<Real> points(scene, scene.materials[s], set);
@@ -137,7 +169,7 @@ FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Re
     sum = parallel_fold(
         threads, static_cast<std::int64_t>(chunks), sum,
         [&](std::int64_t c) {
-          FrameMeasure part = PointMeasure<Real>::empty();
+          FrameMeasure part = PointMeasure<Real>::empty(scene);
           const std::size_t first = static_cast<std::size_t>(c) * kChunkTiles;
           const std::size_t end = std::min(first + kChunkTiles, set.tiles());
           part.fingerprint =
@@ -157,6 +189,7 @@ FrameMeasure measure_points(const Scene& scene, const std::vector<ParticleSet<Re
     sum.highest.setZero();
     sum.min_volume_ratio = 0;
   }
+  if (sum.phases && sum.phases->largest < sum.phases->least) sum.phases = PhaseMeasure();  // no point has one
   return sum;
 }
 

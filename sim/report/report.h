@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,21 @@ struct ProbeSeries {
   std::vector<Column> columns;
   std::vector<double> times;   ///< s
   std::vector<double> values;  ///< row by row, a row a time
+};
+
+/// Of the points that carry a concentration.
+struct PhaseMeasure {
+  double component_mass = 0;  ///< sum of m c, kg
+  double least = 0;           ///< c, dimensionless
+  double largest = 0;
+  double rest_volume = 0;  ///< sum of m over the density at rest at c, m^3; m^2 in 2D
+};
+
+/// Sums with the lumped masses of the MLSRK solver, sum_j N_i(x_j) m_j. [MLSRK eq. 11]
+struct LumpedMeasure {
+  double mass = 0;                      ///< kg
+  std::array<double, 3> momentum = {};  ///< kg m/s: what one step's forces keep, until masses change
+  double kinetic_energy = 0;            ///< J
 };
 
 /// What one frame measured of the state, sums taken in a fixed order in double precision.
@@ -79,6 +95,8 @@ struct FrameMeasure {
   double density_within_5_percent = 0;  ///< fraction of interior nodes
   std::optional<double>
       skin_volume;  ///< enclosed by the skins of all materials, m^3; where they are asked for
+  std::optional<PhaseMeasure> phases;   ///< where materials carry a concentration
+  std::optional<LumpedMeasure> lumped;  ///< of the MLSRK solver
   // Connected pieces of the material; see sim/report/pieces.h.
   std::uint64_t pieces = 0;        ///< with at least 1 % of the points each
   double largest_piece_share = 0;  ///< of the points

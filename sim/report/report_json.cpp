@@ -59,6 +59,14 @@ Json frame(const FrameMeasure& m) {
                  {"largest_share", m.largest_piece_share},
                  {"second_share", m.second_piece_share}}}};
   if (m.skin_volume) json["skin_volume"] = *m.skin_volume;
+  if (m.phases)
+    json["phases"] = {{"component_mass", m.phases->component_mass},
+                      {"concentration", {{"min", m.phases->least}, {"max", m.phases->largest}}},
+                      {"rest_volume", m.phases->rest_volume}};
+  if (m.lumped)
+    json["lumped"] = {{"mass", m.lumped->mass},
+                      {"momentum", m.lumped->momentum},
+                      {"kinetic_energy", m.lumped->kinetic_energy}};
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "sim/math/vec.h"
 #include "sim/scene/descriptor.h"
@@ -124,6 +125,27 @@ Codec<T> object_of(const Table<T>& table) {
     return Value(std::move(object));
   };
   return codec;
+}
+
+/// An object that is there or not. Left out, and null, stand for "off": null lets a size or an override take
+/// it away.
+template <class S, class T>
+Field<S> switchable(const char* name, std::optional<T> S::*member, const Table<T>& table,
+                    const char* meaning) {
+  Codec<std::optional<T>> codec;
+  const Codec<T> given = object_of(table);
+  codec.allowed = given.allowed + ", or null";
+  codec.schema = {{"anyOf", Array{given.schema, Object{{"type", "null"}}}}};
+  codec.read = [given](const Value& value, std::optional<T>& out, const Place& place) {
+    out.reset();
+    return std::holds_alternative<std::nullptr_t>(value.data) || given.read(value, out.emplace(), place);
+  };
+  codec.write = [given](const std::optional<T>& t) { return t ? given.write(*t) : Value(); };
+  Field<S> out = optional<S>(name, member, codec, meaning, "off");
+  out.write = [given, member](const S& source) {
+    return source.*member ? std::optional<Value>(given.write(*(source.*member))) : std::nullopt;
+  };
+  return out;
 }
 
 }  // namespace lather::descriptor

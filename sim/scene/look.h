@@ -18,8 +18,9 @@ struct Look {
     double field_of_view_deg = 35;  ///< vertical
   };
   Camera camera;
-  std::string style = "points";       ///< "points", or "skin": the surface around them
-  std::string color_by = "material";  ///< "material", "speed", "J", "plastic_strain", "plasticity", "weak"
+  std::string style = "points";  ///< "points", or "skin": the surface around them
+  std::string color_by =
+      "material";  ///< "material", "speed", "J", "plastic_strain", "plasticity", "weak", "concentration"
   std::optional<std::array<double, 2>> color_range;  ///< none: from each frame's own values
   std::string color_map = "viridis";                 ///< "viridis", "inferno", "coolwarm", "gray"
   std::vector<std::array<double, 3>>

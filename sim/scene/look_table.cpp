@@ -102,9 +102,10 @@ const Table<Look>& look() {
                       "automatic"),
        optional<Look>("style", &Look::style, one_of({"points", "skin"}),
                       "draw the points, or the smooth surface around those of each material (3D)"),
-       optional<Look>("color_by", &Look::color_by,
-                      one_of({"material", "speed", "J", "plastic_strain", "plasticity", "weak"}),
-                      "what the colour of a point shows"),
+       optional<Look>(
+           "color_by", &Look::color_by,
+           one_of({"material", "speed", "J", "plastic_strain", "plasticity", "weak", "concentration"}),
+           "what the colour of a point shows"),
        color_range_field(),
        optional<Look>("color_map", &Look::color_map, one_of({"viridis", "inferno", "coolwarm", "gray"}),
                       "colours of a scalar"),
@@ -132,7 +133,7 @@ const Table<Output>& output() {
        optional<Output>("skin", &Output::skin, names_of({"obj", "ply", "vdb"}),
                         "files of the surface around the points of each material (3D), skin/NNNNN"),
        optional<Output>("scalars", &Output::scalars,
-                        names_of({"speed", "J", "plastic_strain", "plasticity", "weak"}),
+                        names_of({"speed", "J", "plastic_strain", "plasticity", "weak", "concentration"}),
                         "scalars that the files of the points carry beside the one of color_by")});
   return table;
 }

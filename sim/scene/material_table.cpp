@@ -93,6 +93,48 @@ void refuse_keys(const Object& object, const Model& model, const Place& place) {
   refuse_unknown_keys(rest, known, place);
 }
 
+/// The model's parameters that are single numbers.
+std::vector<std::string> numbers_of(const Model& model) {
+  std::vector<std::string> names;
+  for (const FieldInfo& field : model.info.fields)
+    if (!field.unit.empty()) names.push_back(field.name);
+  return names;
+}
+
+/// The parameters that change with the concentration, at one.
+Object values_at(const Phase& phase, double concentration) {
+  Object values;
+  for (const auto& [key, curve] : phase.by_concentration)
+    values.emplace_back(key, value_at(curve, concentration));
+  return values;
+}
+
+/// Each curve is a parameter of the model, not given as a number too, and keeps within its range.
+bool check_curves(const Value& value, const Material& material, const Model& model, const Place& place) {
+  const Place curves = place.at("phase").at("by_concentration");
+  bool good = true;
+  const Value& given = *value.find("phase");
+  const Object& keys = *given.find("by_concentration")->object();
+  const std::vector<std::string> known = numbers_of(model);
+  for (const auto& [key, curve] : keys) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      const std::string near = nearest_name(key, known);
+      good = curves.at(key).refuse(curve, listed(known),
+                                   "The model \"" + model.name + "\" has no such parameter." +
+                                       (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+    } else if (value.find(key) != nullptr) {
+      good = place.at(key).refuse(value.find(key), "left out, as /phase/by_concentration gives it",
+                                  "\"" + key + "\" is given twice: as a number, and by concentration.");
+    }
+  }
+  for (int k = 0; good && k <= kConcentrationNodes; ++k) {
+    Law law = model.start;
+    const double c = static_cast<double>(k) / kConcentrationNodes;
+    good = model.read(values_at(*material.phase, c), law, curves, true);
+  }
+  return good;
+}
+
 bool read_material(const Value& value, Material& out, const Place& place) {
   if (value.object() == nullptr) return place.refuse(value, "an object", "A material must be an object.");
   out.law = default_model().start;
@@ -109,11 +151,17 @@ bool read_material(const Value& value, Material& out, const Place& place) {
   }
   const bool tears_well = tearing().read_fields(value, out.tearing, place);
   const bool complete = &model == &default_model() && value.find("preset") != nullptr;
-  return model.read(value, out.law, place, complete) && tears_well && good;
+  if (!good || !out.phase || out.phase->by_concentration.empty())
+    return model.read(value, out.law, place, complete) && tears_well && good;
+  if (!check_curves(value, out, model, place)) return false;
+  Value at_start = value;
+  for (auto& [key, number] : values_at(*out.phase, out.phase->concentration))
+    at_start.object()->emplace_back(key, std::move(number));
+  return model.read(at_start, out.law, place, complete) && tears_well;
 }
 
 /// The JSON Schema of a material of this model. Of the default one neither the model need be named nor, with
-/// a preset, any parameter.
+/// a preset, any parameter. A phase may give some by concentration; which, the schema does not know.
 Object schema_of(const Model& model) {
   const bool is_default = &model == &default_model();
   TableInfo table = {model.name, model.info.words, keys_of(model)};
@@ -123,15 +171,15 @@ Object schema_of(const Model& model) {
       field.schema = {{"const", model.name}};
       if (!is_default) field.default_value.reset();
       field.presence = is_default ? Presence::kOptional : Presence::kRequired;
-    } else if (is_default && field.presence == Presence::kRequired && field.name != "name") {
+    } else if (field.presence == Presence::kRequired && field.name != "name") {
       parameters.emplace_back(field.name);
       field.presence = Presence::kOptional;
     }
   }
   Object schema = object_schema(table);
-  if (is_default)
-    schema.emplace_back("anyOf",
-                        Array{Object{{"required", Array{"preset"}}}, Object{{"required", parameters}}});
+  Array ways = {Object{{"required", parameters}}, Object{{"required", Array{"phase"}}}};
+  if (is_default) ways.emplace_back(Object{{"required", Array{"preset"}}});
+  schema.emplace_back("anyOf", std::move(ways));
   return schema;
 }
 
@@ -144,7 +192,9 @@ const Table<Material>& material() {
       "replaced. The solver \"mpm\" takes the model \"herschel-bulkley\" only; cards and tearing are of that "
       "model.",
       {required<Material>("name", &Material::name, text(1, 64), "by which bodies refer to it"), model_field(),
-       preset_field()});
+       preset_field(),
+       switchable<Material>("phase", &Material::phase, phase(),
+                            "it carries a concentration that diffuses (solver \"mlsrk\")")});
   return table;
 }
 
@@ -171,7 +221,10 @@ Codec<Material> material_codec() {
   codec.write = [](const Material& m) {
     Object object;
     material().write_fields(m, object);
-    model_of(m.law).write(m.law, object);
+    Object parameters;
+    model_of(m.law).write(m.law, parameters);
+    for (auto& [key, value] : parameters)
+      if (!m.phase || m.phase->curve_of(key) == nullptr) object.emplace_back(key, std::move(value));
     if (m.law.index() == default_model().start.index()) tearing().write_fields(m.tearing, object);
     return Value(std::move(object));
   };
@@ -185,3 +238,19 @@ Object material_schema() {
 }
 
 }  // namespace lather::tables
+
+namespace lather {
+
+std::vector<Law> Material::laws() const {
+  if (!phase || phase->by_concentration.empty()) return {law};
+  descriptor::Reading reading;
+  std::vector<Law> out(kConcentrationNodes + 1, law);
+  for (int k = 0; k <= kConcentrationNodes; ++k) {
+    const double c = static_cast<double>(k) / kConcentrationNodes;
+    tables::model_of(law).read(tables::values_at(*phase, c), out[static_cast<std::size_t>(k)],
+                               descriptor::Place(reading), true);
+  }
+  return out;
+}
+
+}  // namespace lather

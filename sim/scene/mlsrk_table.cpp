@@ -37,7 +37,9 @@ const Table<Mlsrk>& mlsrk() {
            "what forces are divided by: lumped mass, consistent at surfaces, or the point's own, which "
            "conserves momentum for good"),
        optional<M>("volume_correction", &M::volume_correction, flag(),
-                   "take the volume of liquid and drucker-prager points from their neighbours' distances")});
+                   "take the volume of liquid and drucker-prager points from their neighbours' distances"),
+       optional<M>("phases", &M::phases, object_of(phase_numerics()), "how concentrations are computed",
+                   "see phases")});
   return table;
 }
 

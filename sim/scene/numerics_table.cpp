@@ -4,30 +4,6 @@ namespace lather::tables {
 
 using namespace descriptor;  // the vocabulary of tables
 
-namespace {
-
-/// Left out, and null, stand for "off": null lets a size or an override take it away.
-template <class T>
-Field<Numerics> switchable(const char* name, std::optional<T> Numerics::*member, const Table<T>& table,
-                           const char* meaning) {
-  Codec<std::optional<T>> codec;
-  const Codec<T> given = object_of(table);
-  codec.allowed = given.allowed + ", or null";
-  codec.schema = {{"anyOf", Array{given.schema, Object{{"type", "null"}}}}};
-  codec.read = [given](const Value& value, std::optional<T>& out, const Place& place) {
-    out.reset();
-    return std::holds_alternative<std::nullptr_t>(value.data) || given.read(value, out.emplace(), place);
-  };
-  codec.write = [given](const std::optional<T>& t) { return t ? given.write(*t) : Value(); };
-  Field<Numerics> out = optional<Numerics>(name, member, codec, meaning, "off");
-  out.write = [given, member](const Numerics& n) {
-    return n.*member ? std::optional<Value>(given.write(*(n.*member))) : std::nullopt;
-  };
-  return out;
-}
-
-}  // namespace
-
 const Table<Resampling>& resampling() {
   using R = Resampling;
   static const Table<R> table(
@@ -96,10 +72,11 @@ const Table<Numerics>& numerics() {
                    "residual at which the semi-implicit solver stops, over its first one"),
        optional<N>("solver_iterations", &N::solver_iterations, integer(1, 10'000),
                    "most iterations of the semi-implicit solver in one step"),
-       switchable("resampling", &N::resampling, resampling(),
-                  "inserts points where deformation would open voids, and merges crowded ones; {} takes the "
-                  "defaults"),
-       switchable(
+       switchable<N>(
+           "resampling", &N::resampling, resampling(),
+           "inserts points where deformation would open voids, and merges crowded ones; {} takes the "
+           "defaults"),
+       switchable<N>(
            "subgrid_removal", &N::subgrid_removal, subgrid_removal(),
            "removes weak points that are too thin a sliver or speck for the grid; {} takes the defaults"),
        optional<N>("mlsrk", &N::mlsrk, object_of(mlsrk()), "of the solver \"mlsrk\"; else without effect",

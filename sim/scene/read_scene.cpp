@@ -110,7 +110,7 @@ Scene read(const Value& document, const MeshSource& source, std::vector<Problem>
 
 }  // namespace
 
-double Material::density() const {
+double density(const Law& law) {
   struct Density {
     double operator()(const HerschelBulkleyParameters& p) const { return p.density; }
     double operator()(const LiquidParameters& p) const { return p.density; }
@@ -121,12 +121,24 @@ double Material::density() const {
   return std::visit(Density{}, law);
 }
 
+std::vector<std::string> Body::material_names() const {
+  if (mixture.empty()) return {material};
+  std::vector<std::string> names;
+  for (const MixturePart& part : mixture) names.push_back(part.material);
+  return names;
+}
+
 double Scene::point_volume() const {
   return std::pow(spacing, dimension) / points_per_cell;
 }
 
 int Scene::last_frame() const {
   return static_cast<int>(std::floor(duration * frame_rate + 1e-9));
+}
+
+bool Scene::has_phases() const {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& m) { return m.phase.has_value(); });
 }
 
 bool Scene::wants_skin() const {

@@ -19,6 +19,7 @@
 #include "sim/material/tearing_parameters.h"
 #include "sim/math/vec.h"
 #include "sim/scene/look.h"
+#include "sim/scene/phase.h"
 #include "sim/scene/probe.h"
 #include "sim/shape/motion.h"
 #include "sim/shape/shape.h"
@@ -45,27 +46,55 @@ struct Domain {
 using Law = std::variant<HerschelBulkleyParameters, NeoHookeanParameters, DruckerPragerParameters,
                          SnowParameters, LiquidParameters>;
 
+/// At rest, kg/m^3.
+[[nodiscard]] double density(const Law& law);
+
 struct Material {
   std::string name;
   std::string preset;  ///< the card it was made from, "" if none
   Law law;
-  TearingParameters tearing;  ///< of Herschel-Bulkley materials
+  TearingParameters tearing;   ///< of Herschel-Bulkley materials
+  std::optional<Phase> phase;  ///< none: takes no part in diffusion; else `law` is that of its concentration
 
-  [[nodiscard]] double density() const;  ///< at rest, kg/m^3
+  [[nodiscard]] double density() const { return lather::density(law); }  ///< at rest, at t = 0, kg/m^3
+  /// The law at kConcentrationNodes + 1 concentrations, evenly from 0 to 1; where nothing changes with the
+  /// concentration, the law alone.
+  [[nodiscard]] std::vector<Law> laws() const;
   /// The law of a material that is known to be a Herschel-Bulkley one.
   [[nodiscard]] const HerschelBulkleyParameters& herschel_bulkley() const {
     return std::get<HerschelBulkleyParameters>(law);
   }
 };
 
+/// One of the materials of a body that is a mixture.
+struct MixturePart {
+  std::string material;
+  double share = 1;  ///< of the body's points, over the sum of all shares
+};
+
 struct Body {
   std::string name;
-  std::string material;
+  std::string material;              ///< "" for a mixture
+  std::vector<MixturePart> mixture;  ///< every point is of one of these, at random; empty: one material
   ShapePtr shape;
   Vec3 velocity = Vec3::Zero();  ///< m/s
   Vec3 spin_deg = Vec3::Zero();  ///< angular velocity about the body's centre of mass, degrees/s
   Mat3 velocity_gradient =
       Mat3::Zero();  ///< added as grad * x (x from the world origin), 1/s: simple shear and the like
+
+  /// The name of its material, or those of its mixture.
+  [[nodiscard]] std::vector<std::string> material_names() const;
+};
+
+/// Points that are held or driven: those that at t = 0 belong to `body` and lie inside `shape`.
+struct Grip {
+  std::string name;
+  std::string body;  ///< "": every body
+  ShapePtr shape;    ///< null: the whole body
+  Motion motion =
+      AtRest{};       ///< what the points do between start and end, relative to where they are at start
+  double start = 0;   ///< s
+  double end = 1e30;  ///< s
 };
 
 /// A source of material: it releases copies of its shape, or lets material stream through it.
@@ -127,6 +156,7 @@ struct Mlsrk {
   double velocity_blend_reference_step = 1e-4;  ///< s: alpha_b of a step is velocity_blend^(dt / this)
   InertialMass inertial_mass = InertialMass::kLumped;
   bool volume_correction = true;  ///< of liquids and Drucker-Prager materials [MLSRK eq. 19]
+  PhaseNumerics phases;
 };
 
 struct Numerics {
@@ -163,6 +193,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Emitter> emitters;
   std::vector<Obstacle> obstacles;
+  std::vector<Grip> grips;  ///< of the MLSRK solver
   std::vector<Probe> probes;
   std::uint64_t seed = 0;
   double jitter = 0;  ///< of the initial points, fraction of their distance, 0 … 1
@@ -170,6 +201,9 @@ struct Scene {
   Look look;
   Output output;
   std::vector<std::shared_ptr<const MeshFile>> meshes;  ///< that the shapes name, as they were read
+
+  /// Does any of its materials carry a concentration?
+  [[nodiscard]] bool has_phases() const;
 
   /// Does anything in it ask for the surface of the points?
   [[nodiscard]] bool wants_skin() const;

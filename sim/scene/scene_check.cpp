@@ -31,38 +31,47 @@ void check_unique(const std::vector<T>& list, const Place& place) {
   }
 }
 
-/// Every body or emitter is of a material that the scene has.
+/// Notes a name at `place` that is none of `names`, which are those of the scene's things of one kind,
+/// "obstacle".
+void check_known(const std::string& wanted, const std::vector<std::string>& names, const std::string& kind,
+                 const Place& place) {
+  if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  const std::string near = descriptor::nearest_name(wanted, names);
+  place.refuse(Value(wanted),
+               names.empty() ? "none: the scene has no " + kind + " at all" : descriptor::listed(names),
+               "The scene has no " + kind + " of that name." +
+                   (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+}
+
 template <class T>
-void check_materials_known(const Scene& scene, const std::vector<T>& users, const Place& list) {
+std::vector<std::string> names_of(const std::vector<T>& list) {
   std::vector<std::string> names;
-  for (const Material& m : scene.materials) names.push_back(m.name);
+  for (const T& entry : list) names.push_back(entry.name);
+  return names;
+}
+
+/// Every body and emitter is of materials that the scene has.
+void check_materials_known(const Scene& scene, const Place& root) {
+  const std::vector<std::string> names = names_of(scene.materials);
   if (std::find(names.begin(), names.end(), "") != names.end()) return;  // noted already
-  for (std::size_t i = 0; i < users.size(); ++i) {
-    const std::string& wanted = users[i].material;
-    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
-    const std::string near = descriptor::nearest_name(wanted, names);
-    list.at(i)
-        .at("material")
-        .refuse(Value(wanted), descriptor::listed(names),
-                "The scene has no material of that name." +
-                    (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const Place place = root.at("bodies").at(i);
+    check_known(body.material, names, "material", place.at("material"));
+    for (std::size_t k = 0; k < body.mixture.size(); ++k)
+      check_known(body.mixture[k].material, names, "material", place.at("mixture").at(k).at("material"));
   }
+  for (std::size_t i = 0; i < scene.emitters.size(); ++i)
+    check_known(scene.emitters[i].material, names, "material", root.at("emitters").at(i).at("material"));
 }
 
 void check_probed_obstacles_known(const Scene& scene, const Place& list) {
-  std::vector<std::string> names;
-  for (const Obstacle& o : scene.obstacles) names.push_back(o.name);
+  const std::vector<std::string> names = names_of(scene.obstacles);
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const auto* force = std::get_if<ForceProbe>(&scene.probes[i].kind);
     const auto* point = std::get_if<PointProbe>(&scene.probes[i].kind);
     const std::string wanted = force != nullptr ? force->obstacle : point != nullptr ? point->obstacle : "";
-    if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) continue;
-    const std::string near = descriptor::nearest_name(wanted, names);
-    list.at(i)
-        .at("obstacle")
-        .refuse(Value(wanted), names.empty() ? "none: the scene has no obstacles" : descriptor::listed(names),
-                "The scene has no obstacle of that name." +
-                    (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+    check_known(wanted, names, "obstacle", list.at(i).at("obstacle"));
   }
 }
 
@@ -173,6 +182,29 @@ void check_plane(const Value& document, const Scene& scene, const Place& root) {
   }
 }
 
+/// Does a motion keep the plane of a 2D scene in itself?
+struct StaysInPlane {
+  bool operator()(const AtRest&) const { return true; }
+  bool operator()(const LinearMotion& m) const { return m.velocity.z() == 0; }
+  bool operator()(const Oscillation& m) const { return m.amplitude == 0 || m.direction.z() == 0; }
+  bool operator()(const Rotation& m) const { return m.axis.x() == 0 && m.axis.y() == 0; }
+  bool operator()(const Keyframes& m) const {
+    return std::all_of(m.keys.begin(), m.keys.end(), [](const Keyframe& k) {
+      return k.translate.z() == 0 && k.rotate_deg.x() == 0 && k.rotate_deg.y() == 0;
+    });
+  }
+};
+
+void check_grips_in_plane(const Value& document, const Scene& scene, const Place& root) {
+  for (std::size_t i = 0; i < scene.grips.size(); ++i) {
+    if (std::visit(StaysInPlane{}, scene.grips[i].motion)) continue;
+    const Value& given = (*document.find("grips")->array())[i];
+    root.at("grips").at(i).at("motion").refuse(
+        given.find("motion"), "shifts along x and y, turns about z",
+        "The points of a 2D scene cannot leave the plane; an axis of rotation is [0, 0, 1] there.");
+  }
+}
+
 /// A surface needs space around it.
 void check_skin(const Value& document, const Scene& scene, const Place& root) {
   if (scene.dimension == 3 || !scene.wants_skin()) return;
@@ -214,11 +246,12 @@ void check_names(const Value& document, const Scene& scene, const Place& root) {
   check_unique(scene.bodies, root.at("bodies"));
   check_unique(scene.emitters, root.at("emitters"));
   check_unique(scene.obstacles, root.at("obstacles"));
+  check_unique(scene.grips, root.at("grips"));
   check_unique(scene.probes, root.at("probes"));
   check_probed_obstacles_known(scene, root.at("probes"));
-  if (document.find("materials") == nullptr) return;
-  check_materials_known(scene, scene.bodies, root.at("bodies"));
-  check_materials_known(scene, scene.emitters, root.at("emitters"));
+  for (std::size_t i = 0; i < scene.grips.size(); ++i)
+    check_known(scene.grips[i].body, names_of(scene.bodies), "body", root.at("grips").at(i).at("body"));
+  if (document.find("materials") != nullptr) check_materials_known(scene, root);
 }
 
 void check_whole(const Value& document, Scene& scene, const Place& root) {
@@ -232,6 +265,7 @@ void check_whole(const Value& document, Scene& scene, const Place& root) {
   if (scene.dimension == 2) check_plane(document, scene, root);
   check_skin(document, scene, root);
   if (scene.dimension == 2) check_emitters_in_plane(document, scene, root);
+  if (scene.dimension == 2) check_grips_in_plane(document, scene, root);
   const std::size_t colors = scene.look.material_colors.size();
   if (colors == 0 || colors >= scene.materials.size()) return;
   root.at("look")

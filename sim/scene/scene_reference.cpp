@@ -71,9 +71,12 @@ std::string scene_reference() {
   out += "Beside these:\n\n" + rows(tables::document_fields());
   out += section(tables::domain().info()) + section(tables::material().info());
   for (const tables::Model& model : tables::models()) out += section(model.info, "### ");
-  out += section(tables::tearing().info(), "### ");
-  out += section(tables::body().info()) + section(tables::emitter().info());
-  out += section(tables::obstacle().info());
+  out += section(tables::tearing().info(), "### ") + section(tables::phase().info(), "### ");
+  out += family("curves", "Every curve has a `type`; c is the concentration, taken from 0 to 1.",
+                tables::curves());
+  out += section(tables::body().info()) + section(tables::mixture_part().info(), "### ");
+  out += section(tables::emitter().info()) + section(tables::obstacle().info());
+  out += section(tables::grip().info());
   out += family("shapes",
                 "Every shape has a `type` and takes the keys of its placement beside its own:\n\n" +
                     rows(tables::shapes().common()),
@@ -87,7 +90,8 @@ std::string scene_reference() {
           rows(tables::probes().common()),
       tables::probes());
   out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ") +
-         section(tables::subgrid_removal().info(), "### ") + section(tables::mlsrk().info(), "### ");
+         section(tables::subgrid_removal().info(), "### ") + section(tables::mlsrk().info(), "### ") +
+         section(tables::phase_numerics().info(), "#### ");
   out += section(tables::look().info());
   out += section(tables::camera().info(), "### ") + section(tables::output().info());
   return out + cards();

@@ -10,6 +10,7 @@ std::string scene_schema() {
   }
   schema.emplace_back("$defs", Object{{"shape", tables::shapes().schema()},
                                       {"motion", tables::motions().schema()},
+                                      {"curve", tables::curves().schema()},
                                       {"material", tables::material_schema()}});
   return write_json(schema, 2) + "\n";
 }

@@ -12,6 +12,7 @@ constexpr std::size_t kMaxMaterials = 255;
 constexpr std::size_t kMaxBodies = 1000;
 constexpr std::size_t kMaxEmitters = 1000;
 constexpr std::size_t kMaxObstacles = 1000;
+constexpr std::size_t kMaxGrips = 1000;
 constexpr std::size_t kMaxProbes = 100;
 constexpr double kMaxGradient = 1e6;  // 1/s
 
@@ -32,6 +33,28 @@ void check_domain(const Value& value, Domain& d, const Place& place) {
         .refuse((*value.find("max")->array())[static_cast<std::size_t>(i)],
                 "above min, " + write_json(d.box.min[i]) + " m", "The domain is empty along this axis.");
   }
+}
+
+/// A field that is written only where `there` says so of what it belongs to.
+template <class T, class There>
+Field<T> written_where(const There& there, Field<T> field) {
+  field.write = [there, write = field.write](const T& source) {
+    return there(source) ? write(source) : std::nullopt;
+  };
+  return field;
+}
+
+void check_body(const Value& value, Body& /*body*/, const Place& place) {
+  const Value* material = value.find("material");
+  const Value* mixture = value.find("mixture");
+  if (mixture != nullptr && material != nullptr)
+    place.at("material")
+        .refuse(material, "only where there is no mixture",
+                "A body is of one material or a mixture of several; take out \"material\" or \"mixture\".");
+  if (mixture == nullptr && material == nullptr)
+    place.at("material")
+        .refuse(nullptr, "text of 1 to 64 bytes",
+                "\"material\" is missing: the name of a material; or give a \"mixture\".");
 }
 
 void check_obstacle(const Value& value, Obstacle& o, const Place& place) {
@@ -77,18 +100,35 @@ const Table<Domain>& domain() {
   return table;
 }
 
+const Table<MixturePart>& mixture_part() {
+  static const Table<MixturePart> table(
+      "mixture", "One of the materials that the points of a body are of.",
+      {required<MixturePart>("material", &MixturePart::material, text(1, 64), "the name of a material"),
+       optional<MixturePart>("share", &MixturePart::share, number("1", above_to(0, 1e6)),
+                             "chance of a point to be of it, over the sum of all shares")});
+  return table;
+}
+
 const Table<Body>& body() {
   static const Table<Body> table(
       "body", "Material in the form of a shape.",
       {required<Body>("name", &Body::name, text(1, 64), "for messages and reports"),
-       required<Body>("material", &Body::material, text(1, 64), "the name of a material"),
+       written_where([](const Body& b) { return b.mixture.empty(); },
+                     optional<Body>("material", &Body::material, text(1, 64), "the name of a material",
+                                    "required, or a mixture")),
+       written_where(
+           [](const Body& b) { return !b.mixture.empty(); },
+           optional<Body>("mixture", &Body::mixture,
+                          list_of(object_of(mixture_part()), 1, kMaxMaterials, "materials"),
+                          "in place of a material: every point is of one of these, at random", "none")),
        required<Body>("shape", &Body::shape, shape_codec(), "its form at t = 0"),
        optional<Body>("velocity", &Body::velocity, velocity(), "at t = 0"),
        optional<Body>("spin_deg", &Body::spin_deg, vector("degrees/s", from_to(-1e8, 1e8)),
                       "angular velocity about the centre of mass at t = 0"),
        optional<Body>("velocity_gradient", &Body::velocity_gradient,
                       matrix("1/s", from_to(-kMaxGradient, kMaxGradient)),
-                      "adds gradient * x (x from the world's origin) to the velocity at t = 0")});
+                      "adds gradient * x (x from the world's origin) to the velocity at t = 0")},
+      {}, check_body);
   return table;
 }
 
@@ -139,6 +179,10 @@ const Table<Scene>& scene() {
                        "material that comes in later"),
        optional<Scene>("obstacles", &Scene::obstacles,
                        list_of(object_of(obstacle()), 0, kMaxObstacles, "obstacles"), "rigid things"),
+       written_where(
+           [](const Scene& s) { return !s.grips.empty(); },
+           optional<Scene>("grips", &Scene::grips, list_of(object_of(grip()), 0, kMaxGrips, "grips"),
+                           "points that are held or driven; with the solver \"mlsrk\"", "none")),
        optional<Scene>("probes", &Scene::probes, list_of(probe_codec(), 0, kMaxProbes, "probes"),
                        "time series of forces, of the state at places, of flux through planes"),
        optional<Scene>("seed", &Scene::seed, counter(), "of all random numbers"),

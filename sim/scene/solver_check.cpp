@@ -24,6 +24,14 @@ void check_models_of_mpm(const Scene& scene, const Place& materials) {
   }
 }
 
+void check_no_phases_in_mpm(const Scene& scene, const Place& materials) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (scene.materials[i].phase)
+      materials.at(i).at("phase").refuse(
+          nullptr, "null, or left out, with \"solver\": \"mpm\"",
+          "The solver \"mpm\" knows no concentrations. Take \"phase\" out, or set \"solver\" to \"mlsrk\".");
+}
+
 void check_no_tearing(const Scene& scene, const Place& materials) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const double threshold = scene.materials[i].tearing.tear_threshold;
@@ -90,6 +98,12 @@ void check_periods_of_mlsrk(const Scene& scene, const Place& root) {
 void check_solver(const Value& document, const Scene& scene, const Place& root) {
   if (scene.solver == Solver::kMpm) {
     check_models_of_mpm(scene, root.at("materials"));
+    check_no_phases_in_mpm(scene, root.at("materials"));
+    if (!scene.grips.empty())
+      root.at("grips").refuse(document.find("grips"), "an empty list, or left out, with \"solver\": \"mpm\"",
+                              "The solver \"mpm\" neither holds nor drives points. Use an adhesive obstacle "
+                              "with a \"motion\", or "
+                              "set \"solver\" to \"mlsrk\".");
     return;
   }
   if (scene.points_per_cell != 1)

@@ -21,11 +21,15 @@ inline constexpr double kMaxSupportRadius = 4;
 [[nodiscard]] const descriptor::Table<Domain>& domain();
 [[nodiscard]] const descriptor::Table<Material>& material();
 [[nodiscard]] const descriptor::Table<TearingParameters>& tearing();
+[[nodiscard]] const descriptor::Table<Phase>& phase();
+[[nodiscard]] const descriptor::Table<MixturePart>& mixture_part();
 [[nodiscard]] const descriptor::Table<Body>& body();
+[[nodiscard]] const descriptor::Table<Grip>& grip();
 [[nodiscard]] const descriptor::Table<Emitter>& emitter();
 [[nodiscard]] const descriptor::Table<Obstacle>& obstacle();
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();
 [[nodiscard]] const descriptor::Table<Mlsrk>& mlsrk();
+[[nodiscard]] const descriptor::Table<PhaseNumerics>& phase_numerics();
 [[nodiscard]] const descriptor::Table<Resampling>& resampling();
 [[nodiscard]] const descriptor::Table<SubgridRemoval>& subgrid_removal();
 [[nodiscard]] const descriptor::Table<Look>& look();
@@ -34,11 +38,13 @@ inline constexpr double kMaxSupportRadius = 4;
 [[nodiscard]] descriptor::Table<MeshShape> mesh_table();
 [[nodiscard]] const descriptor::Tagged<decltype(Shape::kind)>& shapes();
 [[nodiscard]] const descriptor::Tagged<Motion>& motions();
+[[nodiscard]] const descriptor::Tagged<Curve>& curves();
 [[nodiscard]] const descriptor::Tagged<decltype(Probe::kind)>& probes();
 
 [[nodiscard]] descriptor::Codec<Material> material_codec();
 [[nodiscard]] descriptor::Codec<ShapePtr> shape_codec();
 [[nodiscard]] descriptor::Codec<Motion> motion_codec();
+[[nodiscard]] descriptor::Codec<Curve> curve_codec();
 [[nodiscard]] descriptor::Codec<Probe> probe_codec();
 
 /// Schemas that others refer to as "#/$defs/…".

@@ -11,11 +11,24 @@ ShapePtr box_at(const Vec3& center, const Vec3& size) {
   return std::make_shared<const Shape>(Shape{PlacedShape(box, center)});
 }
 
-Material material_of(const HerschelBulkleyParameters& law) {
+Material material_of(const Law& law) {
   Material m;
   m.name = "material";
   m.law = law;
   return m;
+}
+
+Scene particle_scene(const std::string& name, double spacing, const Law& law) {
+  Scene scene;
+  scene.name = name;
+  scene.solver = Solver::kMlsrk;
+  scene.dimension = 2;
+  scene.gravity = Vec3::Zero();
+  scene.spacing = spacing;
+  scene.points_per_cell = 1;
+  scene.materials.push_back(material_of(law));
+  scene.numerics.precision = Precision::kDouble;
+  return scene;
 }
 
 Body body_of(const Scene& scene, const ShapePtr& shape, const Vec3& velocity) {

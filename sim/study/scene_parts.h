@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "sim/scene/scene.h"
 #include "sim/simulation.h"
@@ -13,7 +14,10 @@ namespace lather::study {
 /// A box with its centre at `center`, m.
 [[nodiscard]] ShapePtr box_at(const Vec3& center, const Vec3& size);
 
-[[nodiscard]] Material material_of(const HerschelBulkleyParameters& law);
+[[nodiscard]] Material material_of(const Law& law);
+
+/// A weightless scene of the MLSRK solver in double precision with points `spacing` (m) apart, in 2D.
+[[nodiscard]] Scene particle_scene(const std::string& name, double spacing, const Law& law);
 
 /// A body of the scene's first material.
 [[nodiscard]] Body body_of(const Scene& scene, const ShapePtr& shape, const Vec3& velocity = Vec3::Zero());

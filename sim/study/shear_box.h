@@ -12,6 +12,11 @@ namespace lather::study {
 /// are chosen so that a stable step shears by about 5e-4: a scene of the law's own time scale.
 [[nodiscard]] Scene shear_box_scene(const HerschelBulkleyParameters& law, const StartUpRequest& request);
 
+/// The same by the MLSRK solver, in plane strain (where simple shear is what it is in space), without periods
+/// across: the outer five layers of points on each side are the walls and hold the flow's velocity.
+[[nodiscard]] Scene particle_shear_box_scene(const HerschelBulkleyParameters& law,
+                                             const StartUpRequest& request);
+
 /// The stress is read where |y| is less than this, m: the middle half of the gap.
 [[nodiscard]] double middle_half(const Scene& shear_box);
 
@@ -20,6 +25,6 @@ inline constexpr double kMostBoxShear = 100;
 
 /// `threads` = 0 takes all cores. Throws InputError for values out of range.
 [[nodiscard]] StartUp start_up_in_box(const HerschelBulkleyParameters& law, const StartUpRequest& request,
-                                      int threads);
+                                      int threads, Solver solver = Solver::kMpm);
 
 }  // namespace lather::study

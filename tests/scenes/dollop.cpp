@@ -19,8 +19,8 @@ Scene dollop(const std::string& size, std::vector<Override> overrides) {
   return scene_file("pulled-dollop", size, overrides);
 }
 
-Pull pull(const char* name, const Scene& scene, int threads) {
-  Pull p = pull_dollop(scene, threads, kLasting);
+Pull pull(const char* name, const Scene& scene, int threads, double until = 1e30) {
+  Pull p = pull_dollop(scene, threads, kLasting, until);
   std::printf("  %-8s in two parts from %.3f s on; %.0f s of computing to %.3f s, %llu steps of %.3g s\n",
               name, p.separated.value_or(-1), p.report.wall_seconds, p.report.simulated_time,
               static_cast<unsigned long long>(p.report.steps), p.report.largest_time_step);
@@ -30,7 +30,7 @@ Pull pull(const char* name, const Scene& scene, int threads) {
 
 }  // namespace
 
-Pull pull_dollop(const Scene& scene, int threads, double lasting) {
+Pull pull_dollop(const Scene& scene, int threads, double lasting, double until) {
   Pull p;
   const auto simulation = Simulation::create(make_plan(scene), threads);
   for (int i = 0; i <= scene.last_frame(); ++i) {
@@ -40,27 +40,34 @@ Pull pull_dollop(const Scene& scene, int threads, double lasting) {
       p.separated.reset();
     else if (!p.separated)
       p.separated = time;
-    if (p.separated && time >= *p.separated + lasting) break;
+    if (time >= until || (p.separated && time >= *p.separated + lasting)) break;
   }
   p.report = simulation->report();
   return p;
 }
 
-void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads) {
-  const std::string material = "/materials/0/";
-  const Pull brittle = pull("brittle", dollop(size, {{material + "recovery_time", "100"}}), threads);
-  const Pull sticky = pull("sticky", dollop(size, {}), threads);
-  const Pull untorn = pull("untorn", dollop(size, {{material + "tear_threshold", R"("infinity")"}}), threads);
-
+void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads,
+                                                    const std::vector<Override>& overrides) {
+  const auto scene = [&](const char* key, const char* value) {
+    std::vector<Override> all = overrides;
+    all.push_back({std::string("/materials/0/") + key, value});
+    return dollop(size, std::move(all));
+  };
+  const Pull brittle = pull("brittle", scene("recovery_time", "100"), threads);
+  const Pull sticky = pull("sticky", scene("recovery_time", "0.35"), threads);
   ASSERT_TRUE(brittle.separated && sticky.separated);
+  const Pull untorn =
+      pull("untorn", scene("tear_threshold", R"("infinity")"), threads, *sticky.separated + kLasting);
+
   // Bonds that recover while the neck thins make it tear later.
   EXPECT_LT(*brittle.separated, *sticky.separated);
   // All are pulled alike, so an equal time is an equal stretch.
   EXPECT_GT(untorn.separated.value_or(1e30), *sticky.separated);
 }
 
-void expect_removal_takes_little(const std::string& size, int threads) {
-  const Scene scene = dollop(size, {{"/numerics/subgrid_removal", "{}"}});
+void expect_removal_takes_little(const std::string& size, int threads, std::vector<Override> overrides) {
+  overrides.push_back({"/numerics/subgrid_removal", "{}"});
+  const Scene scene = dollop(size, std::move(overrides));
   const Report r = run_scene(scene, threads);
   const double removed = r.frames.back().mass_removed / r.frames.front().mass;
   std::printf("  removed: %llu points, %.4f %% of the mass\n",

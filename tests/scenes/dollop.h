@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/scene/scene.h"
 #include "sim/simulation.h"
@@ -13,16 +15,18 @@ struct Pull {
   Report report;
 };
 
-/// Pulls the dollop until it has lain in two parts for `lasting` s (then stops), or to the end. Two parts:
-/// the second largest cluster (balls of half a spacing, see clusters.h) holds at least 2 % of the points,
-/// some hundred, so that no crumb counts.
-[[nodiscard]] Pull pull_dollop(const Scene& scene, int threads, double lasting);
+/// Pulls the dollop until it has lain in two parts for `lasting` s (then stops), to `until` (s), or to the
+/// end. Two parts: the second largest cluster (balls of half a spacing, see clusters.h) holds at least 2 % of
+/// the points, some hundred, so that no crumb counts.
+[[nodiscard]] Pull pull_dollop(const Scene& scene, int threads, double lasting, double until);
 
 /// At a size that the scene's file names: the brittle run (eta_p = 100 s) comes apart first, then the sticky
 /// one of the scene, both while the foam that does not tear is still one connected set.
-void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads);
+/// `overrides` are laid over the scene.
+void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads,
+                                                    const std::vector<Override>& overrides = {});
 
 /// With subgrid removal, more than nothing and less than 0.28 % of the mass goes. [Foam Figure 8]
-void expect_removal_takes_little(const std::string& size, int threads);
+void expect_removal_takes_little(const std::string& size, int threads, std::vector<Override> overrides = {});
 
 }  // namespace lather::testing_support

@@ -45,6 +45,11 @@ void expect_bit_equal_after_restore(const Plan& plan, int frame, int count) {
     EXPECT_EQ(got.resampling_momentum, expected.resampling_momentum);
     EXPECT_EQ(got.mass_removed, expected.mass_removed);
     EXPECT_EQ(got.skin_volume, expected.skin_volume);
+    EXPECT_EQ(got.lumped.has_value(), expected.lumped.has_value());
+    if (got.lumped && expected.lumped) {
+      EXPECT_EQ(got.lumped->momentum, expected.lumped->momentum);
+      EXPECT_EQ(got.lumped->kinetic_energy, expected.lumped->kinetic_energy);
+    }
     EXPECT_EQ(resumed->report().steps, whole->report().steps);
     for (std::size_t p = 0; p < whole->report().probes.size(); ++p)
       EXPECT_EQ(resumed->report().probes[p].values, whole->report().probes[p].values);

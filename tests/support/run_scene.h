@@ -12,7 +12,7 @@ namespace lather::testing_support {
 std::string ball_scene();
 
 /// Runs all frames of a scene and returns the report.
-Report run(const std::string& scene_json, const std::vector<Override>& overrides, int threads = 1,
+Report run(const std::string& scene_json, const std::vector<Override>& overrides = {}, int threads = 1,
            KernelLevel level = best_kernel_level());
 
 /// Checkpoints of the states after each of the first `count` steps from frame `frame` on; a run that is

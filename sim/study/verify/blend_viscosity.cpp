@@ -14,6 +14,7 @@
 
 #include "sim/plan/step_bound.h"
 #include "sim/study/scene_parts.h"
+#include "sim/study/verify/oscillation.h"
 
 namespace lather::study {
 namespace {
@@ -44,24 +45,14 @@ Scene shear_wave(int cells, double step, double reference_step) {
   return scene;
 }
 
-double amplitude(const Simulation& simulation) {
-  double sum = 0;
-  double count = 0;
-  simulation.visit_points([&](const PointState& p) {
-    sum += p.velocity.x() * std::sin(2 * std::numbers::pi * p.position.y());
-    ++count;
-  });
-  return 2 * sum / count;
-}
-
 /// nu from the wave's decay, m^2/s.
 double measured_viscosity(int cells, double step, double reference_step, int threads) {
   const Scene scene = shear_wave(cells, step, reference_step);
   const auto simulation = Simulation::create(make_plan(scene), threads);
-  const double before = amplitude(*simulation);
+  const double before = wave_amplitude(*simulation, 1);
   run_to(*simulation, 1);
   const double wave_number = 2 * std::numbers::pi;
-  return std::log(before / amplitude(*simulation)) / scene.duration / (wave_number * wave_number);
+  return std::log(before / wave_amplitude(*simulation, 1)) / scene.duration / (wave_number * wave_number);
 }
 
 /// The formula, m^2/s, by the function that plans show.

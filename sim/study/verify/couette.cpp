@@ -39,7 +39,10 @@ std::vector<Finding> verify_couette(int threads) {
   return {{"stress by the law, largest error over the steady stress",
            largest_error(start_up(kFluid, request), viscosity, relaxation), 0.004},
           {"stress in the box, largest error over the steady stress",
-           largest_error(start_up_in_box(kFluid, request, threads), viscosity, relaxation), 0.02}};
+           largest_error(start_up_in_box(kFluid, request, threads), viscosity, relaxation), 0.02},
+          {"stress in the box of the particle method, largest error over the steady stress",
+           largest_error(start_up_in_box(kFluid, request, threads, Solver::kMlsrk), viscosity, relaxation),
+           0.02}};
 }
 
 }  // namespace lather::study

@@ -34,7 +34,8 @@ Scene incline_scene(double slope_deg) {
   scene.gravity = kGravity * Vec3(std::sin(angle), -std::cos(angle), 0);
   scene.spacing = h;
   scene.points_per_cell = 4;
-  scene.materials.push_back(material_of({1000, 1e5, 5e4, std::numeric_limits<double>::infinity(), 0, 1}));
+  scene.materials.push_back(
+      material_of(HerschelBulkleyParameters{1000, 1e5, 5e4, std::numeric_limits<double>::infinity(), 0, 1}));
   scene.bodies.push_back(body_of(scene, box_at(Vec3(0.1, 0.05, 0), Vec3(0.2, 0.1, 1))));
   Obstacle plane;
   plane.name = "plane";

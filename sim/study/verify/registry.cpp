@@ -3,6 +3,7 @@
 #include "sim/study/verify/film.h"
 #include "sim/study/verify/incline.h"
 #include "sim/study/verify/law.h"
+#include "sim/study/verify/mlsrk/cases.h"
 #include "sim/study/verify/resting_block.h"
 #include "sim/study/verify/slump.h"
 #include "sim/study/verify/standing_wave.h"
@@ -25,10 +26,22 @@ const std::vector<VerificationCase>& verification_cases() {
       {"resting-block", "A block below yield does not creep in single precision", true, verify_resting_block},
       {"tearing-box", "A sheared box tears when it should, and recovers at the rate it should", true,
        verify_tearing_box},
+      {"mlsrk-wave", "Particles: an elastic wave keeps its frequency and its amplitude", true,
+       mlsrk::verify_wave},
+      {"mlsrk-blend", "Particles: the velocity blend adds the viscosity that plans show, whatever the step",
+       true, mlsrk::verify_blend},
+      {"mlsrk-energy", "Particles: without the blend a closed body keeps its energy and its momentum", true,
+       mlsrk::verify_energy},
+      {"mlsrk-disk", "Particles: a free disk keeps its angular momentum and its energy", true,
+       mlsrk::verify_disk},
       {"film-fine", "The film's profile converges at finer spacings", false, verify_fine_film},
       {"slump", "A cylinder slumps to where its weight no longer makes it yield", false, verify_slump},
       {"spreading", "A cylinder of low yield stress spreads to the radius that its floor can hold", false,
-       verify_spreading}};
+       verify_spreading},
+      {"mlsrk-dam-break", "Particles: a column of water collapses as measured", false,
+       mlsrk::verify_dam_break},
+      {"mlsrk-sand-column", "Particles: a column of sand runs out as measured", false,
+       mlsrk::verify_sand_column}};
   return cases;
 }
 

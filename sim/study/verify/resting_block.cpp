@@ -25,7 +25,7 @@ Scene resting_scene() {
   scene.spacing = h;
   scene.points_per_cell = 4;
   // Shaving cream; rho g H = 12 Pa beside a yield stress of 31.9 Pa.
-  scene.materials.push_back(material_of({77.7, 109e3, 290, 31.9, 27.2, 0.22}));
+  scene.materials.push_back(material_of(HerschelBulkleyParameters{77.7, 109e3, 290, 31.9, 27.2, 0.22}));
   scene.bodies.push_back(body_of(scene, box_at(Vec3(0, 0.5 * kHeight, 0), Vec3(0.016, kHeight, 1))));
   scene.numerics.transfer = Transfer::kApic;
   set_frames(scene, kTime, kFrames);

@@ -18,6 +18,7 @@
 
 #include "sim/plan/step_bound.h"
 #include "sim/study/scene_parts.h"
+#include "sim/study/verify/oscillation.h"
 
 namespace lather::study {
 namespace {
@@ -56,40 +57,19 @@ Scene wave_scene(int cells, Transfer transfer) {
   return scene;
 }
 
-/// The wave's part of the velocity field, 2 <v_x sin(k x)>, m/s.
-double amplitude(const Simulation& simulation) {
-  double sum = 0;
-  double count = 0;
-  simulation.visit_points([&](const PointState& p) {
-    sum += p.velocity.x() * std::sin(2 * std::numbers::pi * p.position.x());
-    ++count;
-  });
-  return 2 * sum / count;
-}
-
 Wave measure(int cells, Transfer transfer, int threads) {
   const Scene scene = wave_scene(cells, transfer);
   const auto simulation = Simulation::create(make_plan(scene), threads);
-  std::vector<double> a;
+  std::vector<double> samples;
   for (int i = 0; i <= kPeriods * kFramesPerPeriod; ++i) {
     run_to(*simulation, i);
-    a.push_back(amplitude(*simulation));
+    samples.push_back(wave_amplitude(*simulation, 0));
   }
-  std::vector<double> zeros;  // frames
-  std::vector<double> peaks;  // m/s
-  for (std::size_t i = 1; i + 1 < a.size(); ++i) {
-    if (a[i - 1] * a[i] < 0) zeros.push_back(static_cast<double>(i) - a[i] / (a[i] - a[i - 1]));
-    const double below = std::abs(a[i - 1]);
-    const double here = std::abs(a[i]);
-    const double above = std::abs(a[i + 1]);
-    if (here >= below && here > above)  // the top of the parabola through three frames
-      peaks.push_back(here + (above - below) * (above - below) / (8 * (2 * here - above - below)));
-  }
+  const Oscillation seen = oscillation_of(samples);
   Wave wave;
   wave.exact_period = 1 / (scene.frame_rate / kFramesPerPeriod);
-  wave.period = 2 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1) / scene.frame_rate;
-  wave.loss_per_period =
-      1 - std::pow(peaks.back() / peaks.front(), 2.0 / static_cast<double>(peaks.size() - 1));
+  wave.period = seen.period / scene.frame_rate;
+  wave.loss_per_period = seen.loss_per_period;
   return wave;
 }
 

@@ -10,8 +10,15 @@
 
 #include "tests/support/kernel_levels.h"
 
+#ifndef LATHER_STATES_TIMES
+#define LATHER_STATES_TIMES 1
+#endif
+
 namespace lather {
 namespace {
+
+/// How many times the states of the quick test a long run takes.
+constexpr int kTimes = LATHER_STATES_TIMES;
 
 using testing_support::condition;
 using testing_support::LogMap;
@@ -144,27 +151,27 @@ class PlasticLaws : public testing::TestWithParam<KernelLevel> {
 
 TEST_P(PlasticLaws, SnowDoesWhatTheRefereeDoesAtAnyStretch) {
   const SnowParameters p = testing_support::snow();
-  for_states(40'000, [&](const auto& kernels, const auto& states) {
+  for_states(40'000 * kTimes, [&](const auto& kernels, const auto& states) {
     expect_referee(kernels, p, testing_support::referee(p), p.critical_compression, states);
   });
 }
 
 TEST_P(PlasticLaws, DruckerPragerDoesWhatTheRefereeDoesAtAnyStretch) {
   for (const DruckerPragerParameters& p : testing_support::grains())
-    for_states(20'000, [&](const auto& kernels, const auto& states) {
+    for_states(20'000 * kTimes, [&](const auto& kernels, const auto& states) {
       expect_referee(kernels, p, testing_support::referee(p, states.dimension), p.cohesion, states);
     });
 }
 
 TEST_P(PlasticLaws, ASecondCorrectionChangesNothing) {
-  for_states(20'000, [&](const auto& kernels, const auto& states) {
+  for_states(20'000 * kTimes, [&](const auto& kernels, const auto& states) {
     expect_idempotent(kernels, testing_support::snow(), states);
     for (const DruckerPragerParameters& p : testing_support::grains()) expect_idempotent(kernels, p, states);
   });
 }
 
 TEST_P(PlasticLaws, TurningTheBodyOrItsRestStateTurnsTheResult) {
-  for_states(5'000, [&](const auto& kernels, const auto& states) {
+  for_states(5'000 * kTimes, [&](const auto& kernels, const auto& states) {
     expect_indifferent(kernels, testing_support::snow(), states);
     expect_indifferent(kernels, testing_support::grains().front(), states);
   });
@@ -172,7 +179,7 @@ TEST_P(PlasticLaws, TurningTheBodyOrItsRestStateTurnsTheResult) {
 
 TEST_P(PlasticLaws, SnowKeepsItsStretchesWithinTheClamps) {
   const SnowParameters p = testing_support::snow();
-  for_states(10'000, [&](const auto& kernels, auto states) {
+  for_states(10'000 * kTimes, [&](const auto& kernels, auto states) {
     using Real = typename std::remove_reference_t<decltype(states.G)>::value_type;
     yield(kernels, p, states);
     // Each entry of F is rounded by epsilon/2, wherever it came from.
@@ -187,7 +194,7 @@ TEST_P(PlasticLaws, SnowKeepsItsStretchesWithinTheClamps) {
 
 TEST_P(PlasticLaws, DruckerPragerStaysWithinItsCone) {
   for (const DruckerPragerParameters& p : testing_support::grains())
-    for_states(10'000, [&](const auto& kernels, auto states) {
+    for_states(10'000 * kTimes, [&](const auto& kernels, auto states) {
       using Real = typename std::remove_reference_t<decltype(states.G)>::value_type;
       const auto slope = static_cast<double>(drucker_prager_constants<Real>(p, states.dimension).slope);
       yield(kernels, p, states);

@@ -159,9 +159,9 @@ std::vector<Vec3> Arrangement<Real>::accelerate(const std::vector<std::array<dou
       static_cast<Real>(dt), {Real(0), Real(0), Real(0)}, Real(1), own_mass};
   for (std::size_t t = 0; t < tiles(); ++t) {
     const std::vector<Real> place = targets(t);
-    Real light[kTile];
+    Real lumped[kTile];
     kernels_.momentum(step, {place.data()}, all(), force.data(),
-                      velocity.data() + t * kTile * mlsrk::kVelocityReals, light);
+                      velocity.data() + t * kTile * mlsrk::kVelocityReals, lumped);
   }
   std::vector<Vec3> out(size(), Vec3::Zero());
   for (std::size_t i = 0; i < size(); ++i)

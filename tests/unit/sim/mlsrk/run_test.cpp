@@ -96,6 +96,21 @@ TEST_P(MlsrkRun, OwnMassesKeepTheMomentumOfASpinningBody) {
   EXPECT_LT(drift, 0.01 * scale);  // by symmetry of the block it is small, not nothing
 }
 
+// sum_i N_i = 1: the lumped masses are the points' own, dealt out anew; so a common velocity has the same
+// momentum and energy with both.
+TEST_P(MlsrkRun, LumpedMassesAddUpToTheMass) {
+  const Report r =
+      run(free_block(GetParam()), {{"/bodies/0/velocity", "[0.3, -0.2, 0]"}, {"/jitter", "0.3"}});
+  for (const FrameMeasure& f : r.frames) {
+    ASSERT_TRUE(f.lumped.has_value());
+    EXPECT_NEAR(f.lumped->mass, f.mass, 1e-12 * f.mass);
+    EXPECT_NEAR(f.lumped->momentum[0], 0.3 * f.mass, 1e-12 * f.mass);
+    EXPECT_NEAR(f.lumped->momentum[1], -0.2 * f.mass, 1e-12 * f.mass);
+    EXPECT_NEAR(f.lumped->kinetic_energy, f.kinetic_energy, 1e-12 * f.kinetic_energy);
+  }
+  EXPECT_NE(to_json(r).find("\"lumped\""), std::string::npos);
+}
+
 // Divided by the points' own masses, forces do the work that the points' energy loses: f_i . u_i sums to
 // -V sigma : L. What is left is the step's error, which a symplectic step keeps bounded: velocities stand
 // half a step off, so it is of first order, in the square 2 % at a tenth of the step's bound. 20 periods of
@@ -122,8 +137,10 @@ TEST_P(MlsrkRun, IsBitEqualForAnyNumberOfThreads) {
     const Report one = run(all_laws(GetParam()), overrides, 1);
     const Report three = run(all_laws(GetParam()), overrides, 3);
     ASSERT_EQ(one.frames.size(), three.frames.size());
-    for (std::size_t i = 0; i < one.frames.size(); ++i)
+    for (std::size_t i = 0; i < one.frames.size(); ++i) {
       EXPECT_EQ(one.frames[i].fingerprint, three.frames[i].fingerprint);
+      EXPECT_EQ(one.frames[i].lumped.value().momentum, three.frames[i].lumped.value().momentum);
+    }
     EXPECT_EQ(one.steps, three.steps);
   }
 }

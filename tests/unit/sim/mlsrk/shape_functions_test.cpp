@@ -84,6 +84,19 @@ TEST_P(LinearShapeFunctions, ReproduceLinearFieldsAndTheirGradients) {
   }
 }
 
+// sum_j grad N_j(x) (x) (x_j - x) = I: the gradient of every linear field at once.
+TEST_P(LinearShapeFunctions, HaveTheFirstMomentOfTheirGradientsOne) {
+  const auto points = arrangement<double>(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Mat3 moment = Mat3::Zero();
+    for (std::size_t j = 0; j < points.size(); ++j)
+      moment +=
+          points.shape_function(j, i, order(), radial()).gradient * (points.x(j) - points.x(i)).transpose();
+    if (dimension() == 2) moment(2, 2) = 1;
+    EXPECT_LT((moment - Mat3::Identity()).norm(), 1e-8);
+  }
+}
+
 TEST_P(QuadraticShapeFunctions, ReproduceQuadraticFieldsAndTheirGradients) {
   const auto points = arrangement<double>(0);
   Mat3 H;
@@ -139,12 +152,17 @@ TEST_P(ShapeFunctions, AreTheSameOnLanesAndPointByPoint) {
 std::string case_name(const testing::TestParamInfo<Case>& c) {
   const auto [dimension, order, radial, jitter] = c.param;
   return std::to_string(dimension) + "D_order" + std::to_string(order) + (radial ? "_radial" : "_tensor") +
-         (jitter > 0 ? "_jittered" : "_lattice");
+         (jitter == 0  ? "_lattice"
+          : jitter < 1 ? "_jittered"
+                       : "_random");
 }
+
+/// Points anywhere within their distance of a lattice's: no order is left.
+constexpr double kRandom = 1;
 
 auto cases(const std::vector<int>& orders) {
   return testing::Combine(testing::Values(2, 3), testing::ValuesIn(orders), testing::Bool(),
-                          testing::Values(0.0, 0.2));
+                          testing::Values(0.0, 0.2, kRandom));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShapeFunctions, cases({0, 1, 2}), case_name);

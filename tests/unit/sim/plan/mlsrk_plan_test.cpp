@@ -89,6 +89,34 @@ TEST(MlsrkPlan, HasTheStagesOfItsSolverAndCollisionsOnlyWhereThereIsContact) {
                                 "particle collisions", "velocity gradients", "deformation", "positions"}));
 }
 
+TEST(MlsrkPlan, OnlyMaterialsThatAGripCanTakeCarryAWordForIt) {
+  const std::vector<Override> two = {
+      {"/materials", std::string("[{\"name\": \"m\", ") + kJelly + "}, {\"name\": \"sand\", " + kSand + "}]"},
+      {"/bodies", R"([{"name": "ball", "material": "m", "shape": {"type": "sphere", "radius": 0.1}},
+                      {"name": "pile", "material": "sand",
+                       "shape": {"type": "sphere", "radius": 0.1, "translate": [0.5, 0, 0]}}])"}};
+  const auto plan_with = [&](const char* grips) {
+    std::vector<Override> all = two;
+    if (grips != nullptr) all.push_back({"/grips", grips});
+    return plan_of(kJelly, all);
+  };
+  const auto grip_bytes = [](const PlannedMaterial& m) {
+    for (const PlannedField& f : m.fields)
+      if (f.name == "grip") return f.bytes;
+    return 0;
+  };
+  const Plan none = plan_with(nullptr);
+  const Plan one = plan_with(R"([{"name": "hand", "body": "pile"}])");
+  const Plan both = plan_with(R"([{"name": "hand", "shape": {"type": "sphere", "radius": 0.05}}])");
+  for (std::size_t m = 0; m < 2; ++m) {
+    EXPECT_EQ(grip_bytes(none.materials[m]), 0);
+    EXPECT_EQ(grip_bytes(one.materials[m]), m == 1 ? 4 : 0);
+    EXPECT_EQ(grip_bytes(both.materials[m]), 4);
+  }
+  EXPECT_EQ(one.materials[0].bytes_per_point, none.materials[0].bytes_per_point);
+  EXPECT_EQ(one.stages.size(), none.stages.size() + 1) << "grips act among the collisions";
+}
+
 TEST(MlsrkPlan, SamplesOnePointASpacing) {
   // A ball of 0.1 m at 10 mm; its surface cuts about 1300 places.
   EXPECT_NEAR(static_cast<double>(plan_of(kWater).points), 4.0 / 3.0 * M_PI * 1e3, 40);

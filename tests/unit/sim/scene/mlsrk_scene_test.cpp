@@ -221,5 +221,56 @@ TEST(MpmScene, RefusesTheModelsThatItsSolverDoesNotKnow) {
   }
 }
 
+/// Material 2 of mlsrk_scene(), sand, with a phase whose parameters change as given.
+std::vector<Problem> problems_with_curves(const std::string& curves, const Changes& more = {}) {
+  Changes changes = {{"/materials/2/phase",
+                      R"({"concentration": 0.5, "mobility": 1e-6, "by_concentration": {)" + curves + "}}"}};
+  changes.insert(changes.end(), more.begin(), more.end());
+  return problems_of(mlsrk_scene(changes));
+}
+
+TEST(PhaseOfAMaterial, GivesTheLawOfItsConcentrationAndIsWrittenAsItWasRead) {
+  const std::string text = mlsrk_scene({{"/materials/2/cohesion", "null"},
+                                        {"/materials/2/phase",
+                                         R"({"concentration": 0.5, "mobility": 1e-6, "by_concentration": {
+            "cohesion": {"type": "table", "points": [[0.25, 0.01], [0.75, 0.03]]}}})"}});
+  const Scene s = parse_scene(text);
+  EXPECT_DOUBLE_EQ(std::get<DruckerPragerParameters>(s.materials[2].law).cohesion, 0.02);
+  const std::vector<Law> laws = s.materials[2].laws();
+  ASSERT_EQ(laws.size(), kConcentrationNodes + 1U);
+  EXPECT_DOUBLE_EQ(std::get<DruckerPragerParameters>(laws.front()).cohesion, 0.01);
+  EXPECT_DOUBLE_EQ(std::get<DruckerPragerParameters>(laws.back()).cohesion, 0.03);
+  const std::string once = to_json(s);
+  EXPECT_EQ(to_json(parse_scene(once)), once);
+  EXPECT_EQ(s.materials[1].laws().size(), 1U);
+}
+
+TEST(PhaseOfAMaterial, IsRefusedWhereItIsWrong) {
+  const std::string step = R"({"type": "smoothstep", "from": 0.2, "to": 0.4, "start": 1, "end": 2})";
+  const std::string here = "/materials/2/phase/by_concentration";
+  const auto expect = [](const std::vector<Problem>& problems, const std::string& pointer) {
+    ASSERT_FALSE(problems.empty()) << pointer;
+    EXPECT_EQ(problems.front().pointer, pointer);
+  };
+  expect(problems_with_curves("\"viscositty\": " + step), here + "/viscositty");
+  expect(problems_with_curves("\"cohesion\": " + step), "/materials/2/cohesion");
+  expect(problems_with_curves(R"("cohesion": {"type": "polynomial", "coefficients": [1, -2]})",
+                              {{"/materials/2/cohesion", "null"}}),
+         here + "/cohesion");
+  expect(problems_with_curves(
+             R"("viscosity": {"type": "smoothstep", "from": 0.4, "to": 0.2, "start": 1, "end": 2})",
+             {{"/materials/2/viscosity", "null"}}),
+         here + "/viscosity/to");
+  expect(problems_with_curves(R"("viscosity": {"type": "table", "points": [[0.4, 1], [0.4, 2]]})",
+                              {{"/materials/2/viscosity", "null"}}),
+         here + "/viscosity/points/1/0");
+}
+
+TEST(PhaseOfAMaterial, IsRefusedByTheGridSolver) {
+  const auto problems = problems_of(with("/materials/0/phase", R"({"concentration": 0, "mobility": 0})"));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems.front().pointer, "/materials/0/phase");
+}
+
 }  // namespace
 }  // namespace lather::test
