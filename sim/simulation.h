@@ -29,6 +29,7 @@ struct PointState {
   Vec3 position = Vec3::Zero();       ///< m; periodic axes wrapped when last sorted
   Vec3 velocity = Vec3::Zero();       ///< m/s
   std::array<double, 6> stress = {};  ///< Kirchhoff, xx yy zz xy xz yz, Pa
+  double concentration = 0;           ///< c of a material that carries one, dimensionless; else 0
 };
 
 class Simulation {

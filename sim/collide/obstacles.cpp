@@ -46,10 +46,15 @@ void Obstacles::find_near(const Vec3& center, double radius, std::vector<std::ui
   }
 }
 
-std::optional<Obstacles::Touch> Obstacles::touch(std::uint32_t obstacle, const Vec3& x) const {
+double Obstacles::distance_from(std::uint32_t obstacle, const Vec3& x) const {
+  const Placed& o = all_[obstacle];
+  return distance(*o.source->shape, to_local(o, x));
+}
+
+std::optional<Obstacles::Touch> Obstacles::touch(std::uint32_t obstacle, const Vec3& x, double radius) const {
   const Placed& o = all_[obstacle];
   const Vec3 local = to_local(o, x);
-  if (distance(*o.source->shape, local) >= 0) return std::nullopt;
+  if (distance(*o.source->shape, local) >= radius) return std::nullopt;
   Touch t{o.source, o.velocity_at_origin + o.velocity_gradient * x, Vec3::Zero()};
   if (o.source->adhesive) return t;
   t.normal = o.pose.rotation * normal(*o.source->shape, local, normal_step_);
@@ -77,10 +82,10 @@ std::optional<Vec3> Obstacles::after_contact(const Touch& t, const Vec3& velocit
 }
 
 bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
-                        const ContactSink& sink) const {
+                        const ContactSink& sink, double radius) const {
   bool changed = false;
   for (const std::uint32_t i : near) {
-    const std::optional<Touch> t = touch(i, x);
+    const std::optional<Touch> t = touch(i, x, radius);
     const std::optional<Vec3> after = t ? after_contact(*t, velocity) : std::nullopt;
     if (!after) continue;
     sink.take(i, x, velocity - *after, mass);
@@ -93,7 +98,7 @@ bool Obstacles::resolve(const std::vector<std::uint32_t>& near, const Vec3& x, V
 void Obstacles::hold(const std::vector<std::uint32_t>& near, const Vec3& x, const Vec3& velocity,
                      Hold& hold) const {
   for (const std::uint32_t i : near) {
-    const std::optional<Touch> t = touch(i, x);
+    const std::optional<Touch> t = touch(i, x, 0);
     if (!t) continue;
     if (t->source->adhesive) {
       hold.all(t->velocity);
@@ -134,19 +139,20 @@ bool Walls::inside(const Vec3& x) const {
   return true;
 }
 
-bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const {
+bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink,
+                    double radius) const {
   const Vec3 before = velocity;
-  if (!touch(x, velocity)) return false;
+  if (!touch(x, velocity, radius)) return false;
   sink.take(index_, x, before - velocity, mass);
   return true;
 }
 
-bool Walls::touch(const Vec3& x, Vec3& velocity) const {
+bool Walls::touch(const Vec3& x, Vec3& velocity, double radius) const {
   bool changed = false;
   for (int a = 0; a < dimension_; ++a) {
     if (!closed_[static_cast<std::size_t>(a)]) continue;
-    const bool below = x[a] <= box_.min[a] + tolerance_;
-    const bool above = x[a] >= box_.max[a] - tolerance_;
+    const bool below = x[a] <= box_.min[a] + radius + tolerance_;
+    const bool above = x[a] >= box_.max[a] - radius - tolerance_;
     if (!below && !above) continue;
     if (stick_) {
       velocity.setZero();

@@ -29,13 +29,17 @@ class Obstacles {
   /// first).
   void find_near(const Vec3& center, double radius, std::vector<std::uint32_t>& near) const;
 
+  /// Signed distance of `x` from an obstacle of find_near(), m; negative inside.
+  [[nodiscard]] double distance_from(std::uint32_t obstacle, const Vec3& x) const;
+
   /// Velocity of a node or point at `x` after contact with the obstacles `near`; true if it was changed.
   ///
   /// Inside an adhesive obstacle the velocity becomes the obstacle's. Else, with v_rel = v - v_co and outward
   /// normal n: separating (v_rel . n >= 0) stays; the normal part is removed; the tangential part loses mu_f
-  /// |v_n|, or all. What `mass` (kg) loses goes to `sink`.
+  /// |v_n|, or all. What `mass` (kg) loses goes to `sink`. A ball of `radius` (m) around `x` counts as inside
+  /// as soon as it touches.
   bool resolve(const std::vector<std::uint32_t>& near, const Vec3& x, Vec3& velocity, double mass,
-               const ContactSink& sink) const;
+               const ContactSink& sink, double radius = 0) const;
 
   /// Adds to `hold` what contact with the obstacles `near` prescribes of the velocity at `x`, for a node that
   /// would move with `velocity` without them: the same contacts as resolve() finds.
@@ -48,7 +52,7 @@ class Obstacles {
     Vec3 velocity;  // of the obstacle there
     Vec3 normal;    // outward; not set for adhesive obstacles
   };
-  [[nodiscard]] std::optional<Touch> touch(std::uint32_t obstacle, const Vec3& x) const;
+  [[nodiscard]] std::optional<Touch> touch(std::uint32_t obstacle, const Vec3& x, double radius) const;
   /// The velocity after contact; none where the two separate.
   [[nodiscard]] static std::optional<Vec3> after_contact(const Touch& t, const Vec3& velocity);
 
@@ -61,8 +65,6 @@ class Obstacles {
     Vec3 velocity_at_origin = Vec3::Zero();
     Mat3 velocity_gradient = Mat3::Zero();
   };
-  /// The same for one obstacle.
-  bool touch(const Placed& o, const Vec3& x, Vec3& velocity) const;
   [[nodiscard]] static Vec3 to_local(const Placed& o, const Vec3& x) {
     return o.pose.rotation.conjugate() * (x - o.pose.translation);
   }
@@ -81,18 +83,28 @@ class Walls {
   /// True when some face lies within `margin` of the box [low, high].
   [[nodiscard]] bool near(const Vec3& low, const Vec3& high, double margin) const;
 
+  /// Calls visit(distance) for each face: how far `x` lies before it, m; negative beyond.
+  template <class Visit>
+  void for_faces(const Vec3& x, const Visit& visit) const {
+    for (int a = 0; a < dimension_; ++a) {
+      if (!closed_[static_cast<std::size_t>(a)]) continue;
+      visit(x[a] - box_.min[a]);
+      visit(box_.max[a] - x[a]);
+    }
+  }
+
   /// False beyond a face that is not periodic.
   [[nodiscard]] bool inside(const Vec3& x) const;
 
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
-  /// moves.
-  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink) const;
+  /// moves. A ball of `radius` (m) around `x` counts as beyond as soon as it touches.
+  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink, double radius = 0) const;
 
   /// The same for a step that solves for velocities; see Obstacles::hold().
   void hold(const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
-  bool touch(const Vec3& x, Vec3& velocity) const;
+  bool touch(const Vec3& x, Vec3& velocity, double radius) const;
 
   Box3 box_;
   int dimension_;

@@ -7,7 +7,7 @@
 #include "sim/material/newtonian_constants.h"
 #include "sim/material/snow_constants.h"
 
-/// The laws of the MLSRK solver at single points, for tests: a border of plain structs and pointers to
+/// The laws that MLSRK brings at single points, for tests: a border of plain structs and pointers to
 /// kernels that are compiled once per instruction set.
 namespace lather {
 

@@ -3,12 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sim/material/drucker_prager_constants.h"
-#include "sim/material/equation_of_state_constants.h"
-#include "sim/material/herschel_bulkley_constants.h"
-#include "sim/material/neo_hookean_constants.h"
-#include "sim/material/newtonian_constants.h"
-#include "sim/material/snow_constants.h"
+#include "sim/material/law_constants.h"
 #include "sim/plan/tile_layout.h"
 
 /// The border between the solver and its kernels, which are compiled once per instruction set: plain structs
@@ -91,19 +86,6 @@ struct Kernels {
   void (*gradients)(const ShapeConstants<Real>&, Real inverse_scale, const Targets<Real>&,
                     const Candidates<Real>&, const Real* own_shape, const Real* own_velocity,
                     const Real* velocity, Real* gradient, Real* smooth);
-};
-
-/// A law's constants; those of other laws than a material's own are not read. C is the run's precision, or
-/// lanes of it where points of different concentrations have different ones.
-template <class C>
-struct LawConstants {
-  HerschelBulkleyConstants<C> herschel_bulkley;
-  NeoHookeanConstants<C> elastic;
-  DruckerPragerConstants<C> drucker_prager;
-  SnowConstants<C> snow;
-  EquationOfStateConstants<C> liquid;
-  NewtonianConstants<C> viscous;
-  C swelling;  ///< J_r: volume at rest over the one at t = 0 [MLSRK eq. 30]
 };
 
 inline constexpr int kConcentrationSteps = 256;  ///< of a table over concentrations
@@ -200,8 +182,6 @@ struct TileExtremes {
   bool finite = true;
   bool collapsed = false;  ///< some J <= 0
 };
-
-inline constexpr int kLaws = 5;  ///< alternatives of Law
 
 /// [dimension - 2][basis][radial]; `scalar`: the same kernels one point at a time, for tests.
 template <class Real>

@@ -31,13 +31,13 @@ struct BetweenNodes {
 
 /// Constants of lanes, by the concentrations of the tile's points; of Real, the material's own.
 template <class C, class Real, int Dim>
-inline std::conditional_t<std::is_same_v<C, Real>, const mlsrk::LawConstants<Real>&, mlsrk::LawConstants<C>>
-law_constants(const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m) {
+inline std::conditional_t<std::is_same_v<C, Real>, const LawConstants<Real>&, LawConstants<C>> law_constants(
+    const Tile<Real, Dim>& tile, const mlsrk::MaterialConstants<Real>& m) {
   if constexpr (std::is_same_v<C, Real>) {
     return m.law;
   } else {
-    using All = mlsrk::LawConstants<C>;
-    constexpr int kCount = sizeof(mlsrk::LawConstants<Real>) / sizeof(Real);
+    using All = LawConstants<C>;
+    constexpr int kCount = sizeof(LawConstants<Real>) / sizeof(Real);
     static_assert(sizeof(All) == kCount * sizeof(C) && std::is_trivially_copyable_v<All>,
                   "a struct of nothing but constants");
     const double* c = tile.template field<double>(Field::kConcentration);

@@ -1,12 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
-#include "sim/material/drucker_prager_make.h"
-#include "sim/material/equation_of_state_make.h"
-#include "sim/material/herschel_bulkley_make.h"
-#include "sim/material/neo_hookean_make.h"
-#include "sim/material/newtonian_make.h"
-#include "sim/material/snow_make.h"
 #include "sim/mlsrk/step.h"
+#include "sim/plan/law_constants.h"
+#include "sim/plan/step_bound.h"
 
 namespace lather::mlsrk {
 namespace {
@@ -16,39 +13,22 @@ namespace {
 template <class Real>
 constexpr Real kSmallestPivot = sizeof(Real) == 4 ? Real(3e-4) : Real(1e-8);
 
+/// At a concentration of the material, where its law is `law`.
 template <class Real>
-struct MakeConstants {
-  int dimension;
-  LawConstants<Real>& to;
-
-  void operator()(const HerschelBulkleyParameters& p) const {
-    to.herschel_bulkley = herschel_bulkley_constants<Real>(p);
-  }
-  void operator()(const NeoHookeanParameters& p) const {
-    to.elastic = neo_hookean_constants<Real>(p.elastic);
-    to.viscous = newtonian_constants<Real>(p.viscous);
-  }
-  void operator()(const DruckerPragerParameters& p) const {
-    to.elastic = neo_hookean_constants<Real>(p.elastic);
-    to.viscous = newtonian_constants<Real>(p.viscous);
-    to.drucker_prager = drucker_prager_constants<Real>(p, dimension);
-  }
-  void operator()(const SnowParameters& p) const {
-    to.elastic = neo_hookean_constants<Real>(p.elastic);
-    to.snow = snow_constants<Real>(p);
-  }
-  void operator()(const LiquidParameters& p) const {
-    to.liquid = equation_of_state_constants<Real>(p);
-    to.viscous = newtonian_constants<Real>(p.viscous);
-  }
-};
-
-template <class Real>
-LawConstants<Real> law_constants(const Law& law, const Material& material, int dimension) {
-  LawConstants<Real> c{};
-  std::visit(MakeConstants<Real>{dimension, c}, law);
+LawConstants<Real> swollen_constants(const Law& law, const Material& material, int dimension) {
+  LawConstants<Real> c = law_constants<Real>(law, dimension);
   c.swelling = static_cast<Real>(material.density() / density(law));  // J_r = rho0/rho [MLSRK eq. 30]
   return c;
+}
+
+/// What holds together keeps the volume of its own deformation: one from its neighbours is at most that at
+/// rest beside empty space, which would bear no tension there.
+bool coheres(const Material& material) {
+  const std::vector<Law> laws = material.laws();
+  return std::any_of(laws.begin(), laws.end(), [](const Law& law) {
+    const auto* grains = std::get_if<DruckerPragerParameters>(&law);
+    return grains != nullptr && grains->cohesion > 0;
+  });
 }
 
 template <class Real>
@@ -56,9 +36,17 @@ MaterialConstants<Real> material_constants(const Scene& scene, const Material& m
   MaterialConstants<Real> c{};
   c.volume = static_cast<Real>(scene.point_volume());
   c.mass = static_cast<Real>(material.density() * scene.point_volume());
-  c.corrected = correctable && scene.numerics.mlsrk.volume_correction;
-  c.law = law_constants<Real>(material.law, material, scene.dimension);
+  c.corrected = correctable && scene.numerics.mlsrk.volume_correction && !coheres(material);
+  c.law = law_constants<Real>(material.law, scene.dimension);
   return c;
+}
+
+/// Of the material's squared wave speed in the one that the bound of steps allows for: at most 1 where it is
+/// in use.
+double wave_share(const Scene& scene, const Material& material, double bound) {
+  double fastest = 0;
+  for (const Law& law : material.laws()) fastest = std::max(fastest, wave_speed(law));
+  return std::pow(fastest * bound / scene.spacing, 2);
 }
 
 /// sum_j Phi at a point of a lattice that fills its whole support, by the kernel itself.
@@ -94,16 +82,19 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   phases = table.phases[dimension][static_cast<int>(n.basis)][n.kernel_shape == KernelShape::kRadial ? 1 : 0];
   static_assert(kConcentrationSteps == kConcentrationNodes);
   for (const Material& m : scene.materials) {
+    wave_shares.push_back(wave_share(scene, m, plan.step_bound));
     swells = swells || (m.phase && m.phase->curve_of("density") != nullptr);
     std::vector<LawConstants<Real>> constants;
     const std::vector<Law> by_c = m.laws();
     if (by_c.size() > 1)
-      for (const Law& law : by_c) constants.push_back(law_constants<Real>(law, m, scene.dimension));
+      for (const Law& law : by_c) constants.push_back(swollen_constants<Real>(law, m, scene.dimension));
     laws.push_back(table.laws[dimension][constants.empty() ? 0 : 1][m.law.index()]);
     materials.push_back(material_constants<Real>(scene, m, laws.back().correct != nullptr));
+    corrects = corrects || materials.back().corrected;
     by_concentration.push_back(std::move(constants));
     if (!by_concentration.back().empty()) materials.back().by_concentration = by_concentration.back().data();
   }
+  if (corrects) stand_off = 0.5 * scene.spacing;
   shape.regularization = static_cast<Real>(n.regularization);
   shape.constant_regularization = static_cast<Real>(n.regularize_constant ? n.regularization : 0);
   shape.smallest_pivot = kSmallestPivot<Real>;

@@ -3,27 +3,9 @@
 // Positions and blended velocities after a step, and a check of the state. Compiled per kernel level.
 
 #include "sim/mlsrk/kernels.h"
-#include "sim/particles/tile.h"
+#include "sim/particles/tile_check.h"
 
 namespace lather::LATHER_LEVEL {
-
-/// J - 1 of F_e, or of J where no F is kept; adds x - x of every entry to `suspect`.
-template <class Real, int Dim>
-inline Lane<Real> checked_volume_change(const Tile<Real, Dim>& tile, Lane<Real>& suspect) {
-  if (tile.has(Field::kElasticStrain))
-    for (int c = 0; c < Tile<Real, Dim>::kStrainComponents; ++c) {
-      const Lane<Real> b = tile.lane(Field::kElasticStrain, c);
-      suspect += b - b;
-    }
-  if (tile.has(Field::kPlasticVolume)) {
-    const Lane<Real> p = tile.lane(Field::kPlasticVolume);
-    suspect += p - p;
-  }
-  const Lane<Real> j =
-      tile.has(Field::kDeformation) ? det_minus_one(load_deformation(tile)) : tile.lane(Field::kVolumeChange);
-  suspect += j - j;
-  return j;
-}
 
 /// [positions]
 template <class Real, int Dim>
@@ -32,7 +14,7 @@ mlsrk::TileExtremes positions(const mlsrk::SetTile<Real>& at, const mlsrk::MoveS
   using T = Lane<Real>;
   const Tile<Real, Dim> tile{at.bytes, at.layout};
   const T zero(Real(0));
-  T suspect = zero;  // x - x is 0 for finite x only; no maximum can hide a NaN here
+  T suspect = zero;  // see checked_volume_change()
   T largest = zero;
   T speed_squared = zero;
   for (int a = 0; a < Dim; ++a) {
@@ -64,6 +46,10 @@ mlsrk::TileExtremes positions(const mlsrk::SetTile<Real>& at, const mlsrk::MoveS
     if (f[k] > out.speed_squared) out.speed_squared = f[k];
     out.finite = out.finite && s[k] == Real(0);
     out.collapsed = out.collapsed || J[k] <= Real(0);
+  }
+  if (tile.has(Field::kConcentration)) {
+    const double* c = tile.template field<double>(Field::kConcentration);
+    for (int k = 0; k < kLanes; ++k) out.finite = out.finite && c[k] - c[k] == 0;
   }
   return out;
 }

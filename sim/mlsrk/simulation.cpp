@@ -59,6 +59,8 @@ class MlsrkSimulation final : public FrameLoop {
           for (std::size_t c = 0; c < 6; ++c)
             point.stress[c] = static_cast<double>(rows[static_cast<std::size_t>(lane) * kStressReals + c]) /
                               static_cast<double>(model_.materials[m].volume);
+          if (set.layout().has(Field::kConcentration))
+            point.concentration = set.template values<double>(t, Field::kConcentration)[lane];
           visit(point);
         }
       }

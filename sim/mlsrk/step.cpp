@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/math/parallel.h"
+#include "sim/mlsrk/tile_loops.h"
 
 namespace lather::mlsrk {
 namespace {
@@ -23,6 +24,7 @@ StepExtremes Stepper<Real>::step(State<Real>& state, double dt) {
   find_neighbours(state);
   state.regularized += compute_shape_functions();      // [MLSRK eq. 8, 32]
   if (model_.swells) weigh_crowding(state);            // [MLSRK eq. 19, 30]
+  if (model_.corrects) fill_solids();                  // [MLSRK eq. 19]
   compute_stress(state);                               // [MLSRK eq. 19, 22, 23]
   update_velocities(state, dt);                        // [MLSRK eq. 11]
   compute_gradients();                                 // [MLSRK eq. 12, 18]
@@ -103,35 +105,6 @@ SetTile<Real> Stepper<Real>::set_tile(State<Real>& state, const TileOfSet& at) c
 }
 
 template <class Real>
-template <class Work>
-void Stepper<Real>::for_set_tiles(Stage stage, const Work& work) {
-  parallel_for(threads_, static_cast<std::int64_t>(set_tiles_.size()), 64, [&](std::int64_t index) {
-    clock_.time(stage, [&] { work(set_tiles_[static_cast<std::size_t>(index)]); });
-  });
-}
-
-template <class Real>
-template <class Kernel>
-void Stepper<Real>::on_tiles(Stage stage, const Kernel& kernel) {
-  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 4, [&](std::int64_t index) {
-    const auto t = static_cast<std::size_t>(index);
-    clock_.time(stage, [&] {
-      Real place[4 * kTile];
-      cloud_.load_targets(t, place);
-      kernel(t, Targets<Real>{place}, cloud_.candidates(t, scratch().candidates));
-    });
-  });
-}
-
-template <class Real>
-template <class Visit>
-void Stepper<Real>::for_points(const State<Real>& state, const TileOfSet& at, const Visit& visit) const {
-  const std::uint32_t* ids = state.sets[at.set].template values<std::uint32_t>(at.tile, Field::kId);
-  for (int lane = 0; lane < kTile; ++lane)
-    if (ids[lane] != kNoPoint) visit(lane, cloud_.slot_of(at.set, at.tile, lane));
-}
-
-template <class Real>
 void Stepper<Real>::find_neighbours(State<Real>& state) {
   clock_.time(Stage::kNeighbours, [&] { cloud_.refresh(state.sets, threads_); });
   parallel_for(threads_, static_cast<std::int64_t>(set_tiles_.size()), 64, [&](std::int64_t index) {
@@ -199,7 +172,7 @@ void Stepper<Real>::compute_stress(State<Real>& state) {
         model_.laws[at.set].correct(tile, change);
       }
       Real rows[kTile * kStressReals];
-      stiffest = static_cast<double>(model_.laws[at.set].stress(tile, rows));
+      stiffest = static_cast<double>(model_.laws[at.set].stress(tile, rows)) * model_.wave_shares[at.set];
       for_points(state, at, [&](int lane, std::uint32_t slot) {
         std::copy_n(rows + lane * kStressReals, kStressReals,
                     stress_.data() + std::size_t{slot} * kStressReals);
@@ -324,42 +297,6 @@ LumpedMeasure Stepper<Real>::measure_lumped(State<Real>& state) {
 }
 
 template <class Real>
-void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
-  const Box3 box = cloud_.box(tile);
-  obstacles_.find_near(box.center(), 0.5 * box.extent().norm(), scratch.near);
-  const bool walls = model_.walls.near(box.min, box.max, 0);
-  if (scratch.near.empty() && !walls) return;
-  static const WatchedContacts nobody;
-  const ContactSink sink(nobody, nullptr);
-  const auto first = static_cast<std::uint32_t>(tile * kTile);
-  for (std::uint32_t slot = first; slot < first + static_cast<std::uint32_t>(cloud_.tiles()[tile].count);
-       ++slot) {
-    Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
-    Vec3 v = Vec3::Zero();
-    for (int a = 0; a < model_.scene.dimension; ++a) v[a] = static_cast<double>(row[a]);
-    const Vec3 x = cloud_.position(slot);
-    const auto mass = static_cast<double>(row[3]);
-    bool changed = obstacles_.resolve(scratch.near, x, v, mass, sink);
-    if (walls) changed = model_.walls.resolve(x, v, mass, sink) || changed;
-    if (!changed) continue;
-    for (int a = 0; a < model_.scene.dimension; ++a) row[a] = static_cast<Real>(v[a]);
-  }
-}
-
-/// Gives the points of grips their prescribed velocities.
-template <class Real>
-void Stepper<Real>::drive_points(std::size_t tile) {
-  const std::size_t first = tile * kTile;
-  for (std::size_t slot = first; slot < first + static_cast<std::size_t>(cloud_.tiles()[tile].count);
-       ++slot) {
-    if (!driven(slot)) continue;
-    const Vec3 v = grips_.velocity(grip_[slot], cloud_.position(static_cast<std::uint32_t>(slot)));
-    for (int a = 0; a < model_.scene.dimension; ++a)
-      velocity_[slot * kVelocityReals + static_cast<std::size_t>(a)] = static_cast<Real>(v[a]);
-  }
-}
-
-template <class Real>
 void Stepper<Real>::compute_gradients() {
   const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto dim = static_cast<std::size_t>(model_.scene.dimension);
@@ -370,73 +307,6 @@ void Stepper<Real>::compute_gradients() {
                              velocity_.data() + t * kTile * kVelocityReals, velocity_.data(),
                              gradient_.data() + t * dim * dim * kTile, smooth_.data() + t * dim * kTile);
   });
-}
-
-/// Rows of what the points show their neighbours; `value` is c, or the potential once that is known.
-template <class Real>
-void Stepper<Real>::show_concentrations(State<Real>& state) {
-  const bool by_volume = model_.scene.numerics.mlsrk.phases.balance == PhaseBalance::kConcentration;
-  for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
-    const std::optional<Phase>& phase = model_.scene.materials[at.set].phase;
-    if (!phase) return;
-    const double* c = state.sets[at.set].template values<double>(at.tile, Field::kConcentration);
-    for_points(state, at, [&](int lane, std::uint32_t slot) {
-      Real* row = phase_.data() + std::size_t{slot} * PhaseRow::kReals;
-      row[PhaseRow::kValue] = static_cast<Real>(c[lane]);
-      row[PhaseRow::kMember] = Real(1);
-      const Real amount = by_volume ? cloud_.volume(slot) : model_.materials[at.set].mass;
-      row[PhaseRow::kMobility] = amount * static_cast<Real>(phase->mobility);
-    });
-  });
-}
-
-template <class Real>
-void Stepper<Real>::diffuse(State<Real>& state, double dt) {
-  const PhaseNumerics& n = model_.scene.numerics.mlsrk.phases;
-  const double width = n.interface_width.value_or(cloud_.scale());
-  const PhaseStep<Real> step = {static_cast<Real>(1 / cloud_.scale()), static_cast<Real>(width * width),
-                                n.free_energy == FreeEnergy::kDoubleWell};
-  const PhaseKernels<Real>& kernels = model_.phases;
-  const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
-  const auto flux_reals = static_cast<std::size_t>(kernels.flux_reals) * kTile;
-  constexpr std::size_t kRows = PhaseRow::kReals * kTile;
-  show_concentrations(state);
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.potentials(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
-                       phase_.data(), potential_.data() + t * kTile);
-  });
-  for (std::size_t slot = 0; slot < potential_.size(); ++slot)
-    phase_[slot * PhaseRow::kReals + PhaseRow::kValue] = potential_[slot];
-  std::vector<Real>& returned = potential_;  // no longer needed itself
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.fluxes(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
-                   phase_.data(), flux_.data() + t * flux_reals, returned.data() + t * kTile);
-  });
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.gains(step, targets, near, flux_.data(), gain_.data() + t * kTile,
-                  lumped_volume_.data() + t * kTile);
-  });
-  for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
-    if (!model_.scene.materials[at.set].phase) return;
-    double change[kTile] = {};
-    for_points(state, at, [&](int lane, std::uint32_t slot) {
-      change[lane] = dt * static_cast<double>(gain_[slot] + returned[slot]) / inertia(at.set, slot);
-    });
-    model_.laws[at.set].change_concentration(set_tile(state, at), change);
-  });
-}
-
-/// What a gain is divided by, for the rate of c.
-template <class Real>
-double Stepper<Real>::inertia(std::uint32_t set, std::uint32_t slot) const {
-  const PhaseBalance balance = model_.scene.numerics.mlsrk.phases.balance;
-  const auto mass = static_cast<double>(model_.materials[set].mass);
-  if (balance == PhaseBalance::kMass) return mass;
-  const auto own = static_cast<double>(cloud_.volume(slot));
-  const double lumped =
-      static_cast<double>(lumped_volume_[slot]) * std::pow(cloud_.scale(), model_.scene.dimension);
-  const double volume = lumped >= 0.1 * own ? lumped : own;  // few neighbours can make it 0, or less
-  return balance == PhaseBalance::kConcentration ? volume : mass / own * volume;
 }
 
 template <class Real>

@@ -24,12 +24,17 @@ struct Model {
   TileExtremes (*positions)(const SetTile<Real>&, const MoveStep<Real>&, const Real*, const Real*);
   std::vector<MaterialConstants<Real>> materials;
   std::vector<LawKernels<Real>> laws;  ///< one a material
+  std::vector<double> wave_shares;     ///< of each material's squared wave speed in that of the step's bound
   PhaseKernels<Real> phases;
   std::vector<std::vector<LawConstants<Real>>>
       by_concentration;  ///< one a material; empty where none changes
   ShapeConstants<Real> shape;
   Real lattice_crowding;  ///< sum_j Phi of a point inside a full lattice: V/V0 = 1 [MLSRK eq. 19]
-  bool swells = false;    ///< some volume at rest changes with the concentration
+  bool corrects = false;  ///< some volume comes from its neighbours
+  /// m: how far from solids points stop. Half a spacing where `corrects`, so that a lattice that fills a
+  /// container lies as it will rest there; else 0.
+  double stand_off = 0;
+  bool swells = false;  ///< some volume at rest changes with the concentration
   CellBounds bounds;
   Walls walls;
 };
@@ -45,7 +50,7 @@ struct State {
   // Of the last step, for the length of the next one:
   double max_speed = 0;         ///< m/s
   double max_acceleration = 0;  ///< m/s^2, by forces
-  double stiffest = 1;          ///< largest factor by which moduli are hardened
+  double stiffest = 1;  ///< largest factor by which hardening raises squared wave speeds over the bound's
   // Since the start:
   std::uint64_t regularized = 0;  ///< moment matrices that needed more than the constants' r
   std::uint64_t light = 0;        ///< lumped masses below a tenth of the point's own
@@ -90,6 +95,7 @@ class Stepper {
   /// Returns how many moment matrices needed more than the constants' r.
   std::uint64_t compute_shape_functions();
   void weigh_crowding(State<Real>& state);
+  void fill_solids();
   void compute_stress(State<Real>& state);
   void prepare_forces();
   void update_velocities(State<Real>& state, double dt);

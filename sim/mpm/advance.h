@@ -2,7 +2,8 @@
 
 // Positions after a step, and a check of the state. Compiled per kernel level.
 
-#include "sim/mpm/tear.h"
+#include "sim/mpm/tile.h"
+#include "sim/particles/tile_check.h"
 
 namespace lather::LATHER_LEVEL {
 
@@ -11,7 +12,7 @@ mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::Step
   const Real to_cells = step.dt / step.cell;
   Lane<Real> largest(Real(0));
   Lane<Real> fastest(Real(0));
-  Lane<Real> suspect(Real(0));  // x - x is 0 for finite x only; no maximum can hide a NaN here
+  Lane<Real> suspect(Real(0));  // see checked_volume_change()
   Lane<Real> smallest(Real(1));
   for (int first = 0; first < points.count; first += kLanes) {
     const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
@@ -30,16 +31,7 @@ mpm::BlockExtremes advance(const mpm::BlockPoints<Real>& points, const mpm::Step
       capped.store(cells);
       move(tile, a, cells, step.phase);
     }
-    const Lane<Real> j = tile.lane(Field::kVolumeChange);
-    suspect += j - j;
-    for (int c = 0; c < Tile<Real, Dim>::kStrainComponents; ++c) {
-      const Lane<Real> b = tile.lane(Field::kElasticStrain, c);
-      suspect += b - b;
-    }
-    if (tile.has(Field::kDeformation)) {
-      const Mat3<Lane<Real>> G = load_deformation(tile);
-      for_deformation<Dim>([&](int, int a, int b) { suspect += G.m[a][b] - G.m[a][b]; });
-    }
+    const Lane<Real> j = checked_volume_change(tile, suspect);
     smallest = min(j + Real(1), smallest);
     fastest = max(speed_squared, fastest);
   }

@@ -29,7 +29,8 @@ std::string write_checkpoint(const State<Real>& state, const Report& report, int
                              const std::string& key) {
   checkpoint::Writer w(key);
   w.put(frame);
-  w.put(state.step), w.put(state.time), w.put(state.drift), w.put(state.max_speed), w.put(state.sorted);
+  w.put(state.step), w.put(state.time), w.put(state.drift), w.put(state.sorted);
+  w.put(state.max_speed), w.put(state.stiffest);
   w.put(state.resampled);
   for (const double since : state.since_recovery) w.put(since);
   for_counts(state, [&](const auto& value) { w.put(value); });
@@ -43,7 +44,8 @@ void read_checkpoint(const std::string& bytes, const std::string& key, State<Rea
                      int& frame) {
   checkpoint::Reader r(bytes, key);
   r.get(frame);
-  r.get(state.step), r.get(state.time), r.get(state.drift), r.get(state.max_speed), r.get(state.sorted);
+  r.get(state.step), r.get(state.time), r.get(state.drift), r.get(state.sorted);
+  r.get(state.max_speed), r.get(state.stiffest);
   r.get(state.resampled);
   for (double& since : state.since_recovery) r.get(since);
   for_counts(state, [&](auto& value) { r.get(value); });

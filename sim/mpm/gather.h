@@ -3,6 +3,7 @@
 // From grid to points: velocities and their gradient, deformation, plastic flow. Compiled per kernel level.
 
 #include "sim/mpm/scatter.h"
+#include "sim/particles/laws_on_tiles.h"
 
 namespace lather::LATHER_LEVEL {
 
@@ -102,29 +103,20 @@ inline void update_velocities(const Tile<Real, Dim>& tile, const Gathered<Real, 
   }
 }
 
-/// [7. deformation, 8. limit deformation, 10. plastic flow] J, be and, where the material tears, F over the
-/// step. [Foam E.3 steps 7, 8 and 10, Algorithms 11 and 13]
+/// [7. deformation, 8. limit deformation, 10. plastic flow] What the law keeps and, where the material tears,
+/// F over the step. [Foam E.3 steps 7, 8 and 10, Algorithms 11 and 13]
 template <class Real, int Dim, bool Apic>
 inline void update_deformation(const Tile<Real, Dim>& tile, const Gathered<Real, Dim, Apic>& g,
                                const mpm::MaterialConstants<Real>& material,
                                const mpm::StepConstants<Real>& step) {
-  const Lane<Real> zero(Real(0));
-  const Real scale_by = step.dt / step.cell;
-  Mat3<Lane<Real>> A;  // dt grad v; plane strain in 2D
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      A.m[a][b] = a < Dim && b < Dim
-                      ? Lane<Real>::load(g.gradient[a < Dim ? a : 0][b < Dim ? b : 0]) * scale_by
-                      : zero;
-  if (tile.has(Field::kDeformation)) {
+  Mat3<Lane<Real>> A = scaled_rows<Real, Dim>(g.gradient[0][0], Real(step.dt / step.cell));  // dt grad v
+  if (tile.has(Field::kPlasticity)) {
     limit_increment(tile, material.tearing, A);
     store_deformation(tile, deformed(load_deformation(tile), A));
   }
-  HerschelBulkleyState<Lane<Real>> state = predict_elastic(load_state(tile), A);
-  const Lane<Real> plastic_strain = correct_plastic(state, material.law, step.dt);
-  store_state(tile, state);
-  if (tile.has(Field::kPlasticStrain))
-    tile.put(Field::kPlasticStrain, 0, tile.lane(Field::kPlasticStrain) + plastic_strain);
+  alignas(64) Real increment[9][kLanes];
+  for (int c = 0; c < 9; ++c) A.m[c / 3][c % 3].store(increment[c]);
+  material.kernels.deform(point_tile(tile, material), step.dt, increment[0]);
 }
 
 template <class Real, int Dim, bool Cubic, bool Apic>

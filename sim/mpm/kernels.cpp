@@ -6,6 +6,7 @@
 #include "sim/mpm/advance.h"
 #include "sim/mpm/gather.h"
 #include "sim/mpm/grid_kernels.h"
+#include "sim/mpm/laws.h"
 #include "sim/mpm/stiffness.h"
 #include "sim/mpm/tearing_points.h"
 
@@ -101,12 +102,17 @@ int weights(bool cubic, Real fraction, Real* weight, Real* derivative) {
 
 template <class Real>
 mpm::KernelTable<Real> make_table() {
-  return {{{{kernels<Real, 2, false, false>(), kernels<Real, 2, false, true>()},
-            {kernels<Real, 2, true, false>(), kernels<Real, 2, true, true>()}},
-           {{kernels<Real, 3, false, false>(), kernels<Real, 3, false, true>()},
-            {kernels<Real, 3, true, false>(), kernels<Real, 3, true, true>()}}},
-          {plastic_excess_wide<Real>, plastic_excess_scalar<Real>, law_step<Real>, law_step_wide<Real>,
-           stress<Real>, weights<Real>, tearing_kernels<Real, Real>(), tearing_kernels<Lane<Real>, Real>()}};
+  mpm::KernelTable<Real> table = {
+      {{{kernels<Real, 2, false, false>(), kernels<Real, 2, false, true>()},
+        {kernels<Real, 2, true, false>(), kernels<Real, 2, true, true>()}},
+       {{kernels<Real, 3, false, false>(), kernels<Real, 3, false, true>()},
+        {kernels<Real, 3, true, false>(), kernels<Real, 3, true, true>()}}},
+      {},
+      {plastic_excess_wide<Real>, plastic_excess_scalar<Real>, law_step<Real>, law_step_wide<Real>,
+       stress<Real>, weights<Real>, tearing_kernels<Real, Real>(), tearing_kernels<Lane<Real>, Real>()}};
+  fill_laws<Real, 2>(table.laws[0]);
+  fill_laws<Real, 3>(table.laws[1]);
+  return table;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sim/material/herschel_bulkley_constants.h"
+#include "sim/material/law_constants.h"
 #include "sim/material/tearing_constants.h"
 #include "sim/plan/tile_layout.h"
 
@@ -42,13 +42,38 @@ constexpr int neighbours(int dim) {
 template <class Real>
 inline constexpr Real kLeastMass = sizeof(Real) == 4 ? Real(1e-34) : Real(1e-290);
 
-/// One material's constants in the run's precision.
+template <class Real>
+struct MaterialConstants;
+
+/// A tile of one material's points.
+template <class Real>
+struct PointTile {
+  std::byte* bytes;
+  const TileLayout* layout;
+  const MaterialConstants<Real>* material;
+};
+
+/// A law on tiles of its material's points; called once a tile, which costs nothing beside its transfer.
+template <class Real>
+struct LawKernels {
+  /// Kirchhoff stress, Pa: [6][16] of xx yy zz xy xz yz. Returns the largest factor by which moduli are
+  /// hardened, at least 1.
+  Real (*stress)(const PointTile<Real>&, Real* tau);
+  /// Deformation and return mapping over a step; `increment` = dt grad v, [9][16], row by row; in 2D
+  /// with what weak points are given across the plane.
+  void (*deform)(const PointTile<Real>&, Real dt, const Real* increment);
+};
+
+/// One material's constants in the run's precision, and the kernels of its law.
 template <class Real>
 struct MaterialConstants {
   Real mass;    ///< of each point, kg
   Real volume;  ///< of each point at rest, m^3
-  HerschelBulkleyConstants<Real> law;
+  /// J - 1 of a point that fills its cell alone: liquids', and J_p - 1 of grains' and snow's, get no larger.
+  Real most_opened;
+  LawConstants<Real> law;
   TearingConstants<Real> tearing;
+  LawKernels<Real> kernels;
 };
 
 /// One material's points in one block.
@@ -88,7 +113,7 @@ struct BlockPlace {
 struct BlockExtremes {
   double largest_cells = 0;  ///< largest |v| dt / h along an axis
   double speed_squared = 0;  ///< largest, (m/s)^2
-  bool finite = true;        ///< of every velocity, J, strain and F
+  bool finite = true;        ///< of every velocity and all that the law keeps
   bool collapsed = false;    ///< some J <= 0
 };
 
@@ -100,8 +125,8 @@ struct Kernels {
 
   /// [1. rasterize, 3. grid forces, 4. limit forces] Adds the points of one material to the block buffers
   /// `momentum` (m, p) and, with FLIP, `force` (0, f); with APIC the force's impulse dt f goes into
-  /// `momentum` and `force` is not touched.
-  void (*scatter)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&, Real* momentum,
+  /// `momentum` and `force` is not touched. Returns the largest factor by which moduli are hardened.
+  Real (*scatter)(const BlockPoints<Real>&, const BlockPlace&, const StepConstants<Real>&, Real* momentum,
                   Real* force);
 
   /// Sums the block buffers around a grid block in a fixed order. `buffers[n]` is the buffer of the block at
@@ -149,7 +174,7 @@ struct TearingKernels {
   void (*recovered)(const Real* state, const Real* G, Real exponent, Real* recovered);
 };
 
-/// The law at single points, for tests and the rheometer.
+/// The law of Herschel-Bulkley at single points, for tests and the rheometer.
 template <class Real>
 struct PointKernels {
   /// s - sqrt(2/3) sigma_Y after the return mapping, for n points with excess_pre = s_pre - sqrt(2/3)
@@ -176,7 +201,8 @@ struct PointKernels {
 /// Kernels of one level; picked by dimension (2, 3), kernel order and transfer.
 template <class Real>
 struct KernelTable {
-  Kernels<Real> step[2][2][2];  ///< [dimension - 2][cubic][apic]
+  Kernels<Real> step[2][2][2];      ///< [dimension - 2][cubic][apic]
+  LawKernels<Real> laws[2][kLaws];  ///< [dimension - 2][index of the law]
   PointKernels<Real> point;
 };
 

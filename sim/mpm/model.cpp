@@ -1,17 +1,19 @@
-#include "sim/material/herschel_bulkley_make.h"
 #include "sim/mpm/step.h"
+#include "sim/plan/law_constants.h"
 
 namespace lather::mpm {
 namespace {
 
 template <class Real>
-MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
-  const HerschelBulkleyParameters& law = material.herschel_bulkley();
+MaterialConstants<Real> material_constants(const Scene& scene, const Material& material,
+                                           const KernelTable<Real>& table) {
   const double volume = scene.point_volume();
-  return {static_cast<Real>(law.density * volume),
+  return {static_cast<Real>(material.density() * volume),
           static_cast<Real>(volume),
-          herschel_bulkley_constants<Real>(law),
-          {static_cast<Real>(material.tearing.tear_threshold)}};
+          static_cast<Real>(scene.points_per_cell - 1),
+          law_constants<Real>(material.law, scene.dimension),
+          {static_cast<Real>(material.tearing.tear_threshold)},
+          table.laws[scene.dimension - 2][material.law.index()]};
 }
 
 resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds) {
@@ -51,7 +53,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
   const KernelTable<Real>& table = kernel_table<Real>(plan.choices.kernel_level);
   point = table.point;
   kernels = table.step[scene.dimension - 2][cubic ? 1 : 0][apic ? 1 : 0];
-  for (const Material& m : scene.materials) materials.push_back(material_constants<Real>(scene, m));
+  for (const Material& m : scene.materials) materials.push_back(material_constants(scene, m, table));
   resampler = make_resampler(plan, bounds);
   removal = subgrid_search(scene, resampler);
   // See kHomeShift. A little less, for the rounding of sums of displacements.

@@ -8,15 +8,15 @@
 
 namespace lather::mpm {
 
-/// Kirchhoff stress of the point in a lane by its law, Pa: xx yy zz xy xz yz. [Foam eq. 2]
+/// Kirchhoff stress of every lane of a tile by its points' law, Pa: xx yy zz xy xz yz.
 template <class Real>
-[[nodiscard]] std::array<double, 6> law_stress(const ParticleSet<Real>& set,
-                                               const MaterialConstants<Real>& material,
-                                               const PointKernels<Real>& kernels, std::size_t tile, int lane);
+[[nodiscard]] std::array<std::array<double, 6>, kTile> law_stress(const ParticleSet<Real>& set,
+                                                                  const MaterialConstants<Real>& material,
+                                                                  std::size_t tile);
 
 /// Calls visit() for every point, material by material, as the points lie in memory.
 template <class Real>
-void visit_states(const State<Real>& state, const Model<Real>& model, const PointKernels<Real>& kernels,
+void visit_states(const State<Real>& state, const Model<Real>& model,
                   const std::function<void(const PointState&)>& visit);
 
 }  // namespace lather::mpm

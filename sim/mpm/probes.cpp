@@ -67,7 +67,7 @@ class PointReader {
   }
 
   [[nodiscard]] double volume_ratio(std::size_t s, std::size_t t, int lane) const {
-    return 1 + static_cast<double>(state_.sets[s].template values<Real>(t, Field::kVolumeChange)[lane]);
+    return 1 + state_.sets[s].volume_change(t, lane);
   }
 
  private:
@@ -87,7 +87,7 @@ class PointReader {
   void add(Surroundings& sum, double w, std::size_t s, std::size_t t, int lane) const {
     const MaterialConstants<Real>& material = model_.materials[s];
     const ParticleSet<Real>& set = state_.sets[s];
-    const std::array<double, 6> tau = law_stress(set, material, model_.point, t, lane);
+    const std::array<double, 6> tau = law_stress(set, material, t)[static_cast<std::size_t>(lane)];
     const double volume = set.share(t, lane) * static_cast<double>(material.volume);
     const double mass = set.share(t, lane) * static_cast<double>(material.mass);
     sum.mass += w * mass;

@@ -25,10 +25,14 @@ struct PointSources {
   alignas(64) Real momentum[Dim][kLanes];
   alignas(64) Real pull[Dim][Dim][kLanes];
   alignas(64) Real arm[Apic ? Dim : 1][Dim][kLanes];
+  Real stiffest;  ///< factor by which moduli are hardened, of any of the points
 
   PointSources(const Tile<Real, Dim>& tile, const mpm::MaterialConstants<Real>& material,
                const mpm::StepConstants<Real>& step) {
-    Sym3<Lane<Real>> tau = kirchhoff_stress(load_state(tile), material.law);
+    alignas(64) Real rows[6][kLanes];
+    stiffest = material.kernels.stress(point_tile(tile, material), rows[0]);
+    const auto row = [&](int c) { return Lane<Real>::load(rows[c]); };
+    Sym3<Lane<Real>> tau = {row(0), row(1), row(2), row(3), row(4), row(5)};
     if (tile.has(Field::kPlasticity)) limit_stress(tile, material.tearing, tau);
     const Lane<Real> share = load_share(tile);
     const Lane<Real> m = share * material.mass;
@@ -118,12 +122,14 @@ inline void scatter_apic(const Stencil<Real, Dim, Cubic>& s, const PointSources<
 }
 
 template <class Real, int Dim, bool Cubic, bool Apic>
-void scatter(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
+Real scatter(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
              const mpm::StepConstants<Real>& step, Real* momentum, Real* force) {
+  Real stiffest(1);
   for (int first = 0; first < points.count; first += kLanes) {
     const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     const PointSources<Real, Dim, Apic> sources(tile, *points.material, step);
+    if (sources.stiffest > stiffest) stiffest = sources.stiffest;
     const int count = points.count - first < kLanes ? points.count - first : kLanes;
     for (int k = 0; k < count; ++k) {
       if constexpr (Apic)
@@ -132,6 +138,7 @@ void scatter(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
         scatter_flip(stencil, sources, k, momentum, force);
     }
   }
+  return stiffest;
 }
 
 }  // namespace lather::LATHER_LEVEL

@@ -231,8 +231,7 @@ double VelocitySolver<Real>::Run::start() const {
   // see, to a few epsilon times that norm.
   const double stiff = static_cast<double>(step.dt / step.cell);
   double fastest = 0;
-  for (const Material& m : s.model_.scene.materials)
-    fastest = std::max(fastest, wave_speed(m.herschel_bulkley()));
+  for (const Material& m : s.model_.scene.materials) fastest = std::max(fastest, wave_speed(m.law));
   const double rounding = 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                           (1 + 4 * stiff * stiff * fastest * fastest);
   return rounding * rounding * energy;

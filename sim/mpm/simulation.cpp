@@ -47,7 +47,7 @@ class MpmSimulation final : public FrameLoop {
     return with_skins(snapshot_.take(state_.sets, state_.time, plan_, measured_frame_));
   }
   void visit_points(const std::function<void(const PointState&)>& visit) const override {
-    visit_states(state_, model_, kernel_table<Real>(plan_.choices.kernel_level).point, visit);
+    visit_states(state_, model_, visit);
   }
 
   [[nodiscard]] std::string save() const override {
@@ -66,10 +66,10 @@ class MpmSimulation final : public FrameLoop {
   void after_step() override { sample_probes(state_, model_, threads_, report_.probes); }
   [[nodiscard]] const StageClock& clock() const override { return stepper_.clock(); }
 
-  /// The step of this moment: the planned one, shorter while points are fast.
+  /// The step of this moment: the planned one, shorter while moduli are hardened or points fast.
   [[nodiscard]] double step_limit() const override {
     const Scene& s = plan_.scene;
-    const double planned = planned_step(s, plan_.step_bound);
+    const double planned = planned_step(s, plan_.step_bound / std::sqrt(state_.stiffest));
     if (s.numerics.time_step > 0 || state_.max_speed == 0) return planned;
     constexpr double kMostCells = 0.3;  // a point moves at most this far in an automatic step
     return std::min(planned, kMostCells * s.spacing / state_.max_speed);

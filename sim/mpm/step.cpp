@@ -35,8 +35,8 @@ StepResult Stepper<Real>::step(State<Real>& state, double dt) {
   if (solver_) {
     solve = solve_grid(state, constants);  // 1, 3 to 6
   } else {
-    rasterize(state, constants, model_.materials);  // 1, 3, 4
-    update_grid(constants);                         // 5, 6
+    state.stiffest = rasterize(state, constants, model_.materials);  // 1, 3, 4
+    update_grid(constants);                                          // 5, 6
   }
   const StepExtremes seen = update_particles(state, constants);  // 7 to 11, 13, 14
   tally_.end_step(state.time, state.probes);
@@ -149,19 +149,24 @@ void Stepper<Real>::detect_tearing(State<Real>& state) {
 }
 
 template <class Real>
-void Stepper<Real>::rasterize(State<Real>& state, const StepConstants<Real>& step,
-                              const std::vector<MaterialConstants<Real>>& materials) {
-  parallel_for(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), 1, [&](std::int64_t index) {
+double Stepper<Real>::rasterize(State<Real>& state, const StepConstants<Real>& step,
+                                const std::vector<MaterialConstants<Real>>& materials) {
+  const auto one_block = [&](std::int64_t index) {
     const auto b = static_cast<std::size_t>(index);
+    Real stiffest(1);
     clock_.time(Stage::kRasterize, [&] {
       std::fill_n(grid_.momentum_buffer(b), grid_.buffer_stride(), Real(0));
       const BlockPlace place = BlockGrid<Real>::place(grid_.point_blocks()[b].block);
       for (std::size_t s = 0; s < state.sets.size(); ++s)
         if (const std::int32_t range = grid_.range_of(s, b); range >= 0)
-          model_.kernels.scatter(block_points(state.sets[s], range, materials[s]), place, step,
-                                 grid_.momentum_buffer(b), grid_.force_buffer(b));
+          stiffest = std::max(
+              stiffest, model_.kernels.scatter(block_points(state.sets[s], range, materials[s]), place, step,
+                                               grid_.momentum_buffer(b), grid_.force_buffer(b)));
     });
-  });
+    return static_cast<double>(stiffest);
+  };
+  return parallel_fold(threads_, static_cast<std::int64_t>(grid_.point_blocks().size()), 1.0, one_block,
+                       [](double& most, double part) { most = std::max(most, part); });
 }
 
 template <class Real>

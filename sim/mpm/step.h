@@ -63,6 +63,7 @@ struct State {
   double time = 0;                      ///< s
   double drift = 0;                     ///< cells, most that any point can have moved since the last sort
   double max_speed = 0;                 ///< m/s, of any point
+  double stiffest = 1;                  ///< largest factor by which moduli are hardened, in the last step
   bool sorted = false;
   std::uint32_t next_id = 0;  ///< of the next new point; ids are never used again
   ResampleTotals resampled;
@@ -138,8 +139,9 @@ class Stepper {
 
  private:
   [[nodiscard]] StepConstants<Real> constants(const State<Real>& state, double dt) const;
-  void rasterize(State<Real>& state, const StepConstants<Real>& step,
-                 const std::vector<MaterialConstants<Real>>& materials);
+  /// Returns the largest factor by which moduli are hardened.
+  double rasterize(State<Real>& state, const StepConstants<Real>& step,
+                   const std::vector<MaterialConstants<Real>>& materials);
   void update_grid(const StepConstants<Real>& step);
   void grid_velocities(std::size_t block, const StepConstants<Real>& step);
   SolveFigures solve_grid(State<Real>& state, const StepConstants<Real>& step);

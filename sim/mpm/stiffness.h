@@ -106,7 +106,7 @@ void stiffness(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& plac
     const Stencil<Real, Dim, Cubic> stencil(tile, place);
     const HerschelBulkleyState<Lane<Real>> state = load_state(tile);
     const Lane<Real> per_derivative = load_share(tile) * Real(-step.dt * material.volume / step.cell);
-    Sym3<Lane<Real>> tau = kirchhoff_stress(state, material.law);
+    Sym3<Lane<Real>> tau = kirchhoff_stress(state, material.law.herschel_bulkley);
     Lane<Real> weight(terms.material);
     if (tile.has(Field::kPlasticity)) {
       limit_stress(tile, material.tearing, tau);
@@ -118,7 +118,7 @@ void stiffness(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& plac
     const bool moves = terms.material != Real(0) || terms.geometric != Real(0) || terms.diffusion != Real(0);
     if (moves) {
       A = deformation_increment<Real, Dim, Cubic>(stencil, step, velocity);
-      const Sym3<Lane<Real>> change = material_tangent(state, A, material.law);
+      const Sym3<Lane<Real>> change = material_tangent(state, A, material.law.herschel_bulkley);
       even = {even.xx + change.xx * weight, even.yy + change.yy * weight, even.zz + change.zz * weight,
               even.xy + change.xy * weight, even.xz + change.xz * weight, even.yz + change.yz * weight};
     }

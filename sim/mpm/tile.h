@@ -13,4 +13,11 @@ inline Tile<Real, Dim> tile_at(const mpm::BlockPoints<Real>& points, int first) 
   return {points.tiles + static_cast<std::ptrdiff_t>(first / kLanes) * points.layout->stride, points.layout};
 }
 
+/// A tile as its law's kernels take it.
+template <class Real, int Dim>
+inline mpm::PointTile<Real> point_tile(const Tile<Real, Dim>& tile,
+                                       const mpm::MaterialConstants<Real>& material) {
+  return {tile.at, tile.layout, &material};
+}
+
 }  // namespace lather::LATHER_LEVEL

@@ -103,6 +103,20 @@ void warn_of_colours(Plan& plan) {
   if (by == "concentration" && !s.has_phases()) plan.warnings.push_back(everywhere + "has a \"phase\".");
 }
 
+/// What the MLSRK solver takes from neighbours, the grid solver adds up step by step.
+void warn_of_volumes(Plan& plan) {
+  if (plan.scene.solver != Solver::kMpm) return;
+  std::string names;
+  for (const Material& m : plan.scene.materials)
+    if (std::holds_alternative<LiquidParameters>(m.law) ||
+        std::holds_alternative<DruckerPragerParameters>(m.law))
+      names += (names.empty() ? "\"" : ", \"") + m.name + "\"";
+  if (names.empty()) return;
+  plan.warnings.push_back("Volumes of " + names +
+                          " follow from the deformation alone, as the solver \"mpm\" has no correction from "
+                          "neighbours: what has splashed may fill too little space, or too much.");
+}
+
 void warn_of_the_step(Plan& plan) {
   const Scene& s = plan.scene;
   if (s.numerics.integration != Integration::kExplicit || s.numerics.time_step <= plan.step_bound) return;
@@ -128,6 +142,7 @@ void warn(Plan& plan) {
         "/numerics/subgrid_removal removes nothing: only weak points go, and no material has a finite "
         "tear_threshold.");
   warn_of_colours(plan);
+  warn_of_volumes(plan);
   warn_of_the_step(plan);
 }
 

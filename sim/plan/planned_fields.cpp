@@ -5,7 +5,7 @@
 namespace lather {
 namespace {
 
-/// What a law keeps of a point, in the MLSRK solver.
+/// What a law keeps of a point.
 struct LawFields {
   bool plastic_strain;  ///< is asked for
 
@@ -59,21 +59,16 @@ std::vector<std::string> planned_scalars(const Scene& scene) {
 std::vector<Field> planned_fields(const Scene& scene, const Material& material) {
   const std::vector<std::string> scalars = planned_scalars(scene);
   const bool plastic_strain = std::find(scalars.begin(), scalars.end(), "plastic_strain") != scalars.end();
-  if (scene.solver == Solver::kMlsrk) {
-    std::vector<Field> fields = {Field::kFraction, Field::kVelocity};
-    const std::vector<Field> law = std::visit(LawFields{plastic_strain}, material.law);
-    fields.insert(fields.end(), law.begin(), law.end());
-    if (material.phase) fields.push_back(Field::kConcentration);
-    if (may_be_gripped(scene, material.name)) fields.push_back(Field::kGrip);
-    fields.insert(fields.end(), {Field::kId, Field::kCell});
-    return fields;
-  }
-  std::vector<Field> fields = {Field::kFraction,      Field::kVelocity, Field::kVolumeChange,
-                               Field::kElasticStrain, Field::kId,       Field::kCell};
-  if (scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
-  if (plastic_strain) fields.push_back(Field::kPlasticStrain);
-  if (scene.numerics.resampling) fields.push_back(Field::kShare);
-  if (material.tearing.tears()) {
+  std::vector<Field> fields = {Field::kFraction, Field::kVelocity};
+  const std::vector<Field> law = std::visit(LawFields{plastic_strain}, material.law);
+  fields.insert(fields.end(), law.begin(), law.end());
+  const bool grid = scene.solver == Solver::kMpm;
+  if (material.phase) fields.push_back(Field::kConcentration);
+  if (may_be_gripped(scene, material.name)) fields.push_back(Field::kGrip);
+  fields.insert(fields.end(), {Field::kId, Field::kCell});
+  if (grid && scene.numerics.transfer == Transfer::kApic) fields.push_back(Field::kAffine);
+  if (grid && scene.numerics.resampling) fields.push_back(Field::kShare);
+  if (grid && material.tearing.tears()) {
     fields.push_back(Field::kDeformation);
     fields.push_back(Field::kPlasticity);
   }

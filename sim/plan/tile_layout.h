@@ -21,7 +21,7 @@ enum class Field : int {
   kAffine,            ///< APIC's C, row by row, 1/s
   kPlasticStrain,     ///< accumulated equivalent plastic strain, dimensionless
   kShare,             ///< mass and volume, over those that a point of the material is sampled with
-  kDeformation,       ///< F - I, or F_e - I of MLSRK, row by row in 3D; xx xy yx yy zz in 2D
+  kDeformation,       ///< F - I, or F_e - I if it yields, row by row in 3D; xx xy yx yy zz in 2D
   kPlasticity,        ///< |dev C^p|_F as last detected, dimensionless; weak above the tear_threshold
   kPlasticVolume,     ///< J_p - 1, dimensionless
   kVelocityGradient,  ///< of the last step, row by row, 1/s

@@ -189,8 +189,7 @@ const Table<Material>& material() {
   static const Table<Material> table(
       "material",
       "What a body is made of: a card by name, the parameters of a model, or a card with some parameters "
-      "replaced. The solver \"mpm\" takes the model \"herschel-bulkley\" only; cards and tearing are of that "
-      "model.",
+      "replaced. Cards and tearing are of the model \"herschel-bulkley\".",
       {required<Material>("name", &Material::name, text(1, 64), "by which bodies refer to it"), model_field(),
        preset_field(),
        switchable<Material>("phase", &Material::phase, phase(),

@@ -36,8 +36,10 @@ const Table<Mlsrk>& mlsrk() {
            enumeration<InertialMass>({{"lumped", InertialMass::kLumped}, {"own", InertialMass::kOwn}}),
            "what forces are divided by: lumped mass, consistent at surfaces, or the point's own, which "
            "conserves momentum for good"),
-       optional<M>("volume_correction", &M::volume_correction, flag(),
-                   "take the volume of liquid and drucker-prager points from their neighbours' distances"),
+       optional<M>(
+           "volume_correction", &M::volume_correction, flag(),
+           "take the volume of points that are liquid, or drucker-prager without cohesion, from their "
+           "neighbours' distances"),
        optional<M>("phases", &M::phases, object_of(phase_numerics()), "how concentrations are computed",
                    "see phases")});
   return table;

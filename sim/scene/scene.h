@@ -155,7 +155,7 @@ struct Mlsrk {
   double velocity_blend = 0.95;                 ///< alpha_b at the reference step, dimensionless; 1: none
   double velocity_blend_reference_step = 1e-4;  ///< s: alpha_b of a step is velocity_blend^(dt / this)
   InertialMass inertial_mass = InertialMass::kLumped;
-  bool volume_correction = true;  ///< of liquids and Drucker-Prager materials [MLSRK eq. 19]
+  bool volume_correction = true;  ///< of liquids and of grains without cohesion [MLSRK eq. 19]
   PhaseNumerics phases;
 };
 

@@ -1,5 +1,6 @@
 #include "sim/scene/solver_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,16 +13,23 @@ using descriptor::Place;
 
 constexpr const char* kTurnToMpm = "set \"solver\" to \"mpm\"";
 
-void check_models_of_mpm(const Scene& scene, const Place& materials) {
-  const std::string& known = tables::default_model().name;
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const std::string& model = tables::model_of(scene.materials[i].law).name;
-    if (model == known) continue;
-    materials.at(i).at("model").refuse(
-        Value(model), "\"" + known + "\" with \"solver\": \"mpm\"",
-        "The solver \"mpm\" knows the model \"" + known +
-            "\" only. Set \"solver\" to \"mlsrk\", which knows every model, or use that model.");
-  }
+/// What the grid solver does with Herschel-Bulkley materials alone, where the scene has others as well.
+void check_foam_only(const Value& document, const Scene& scene, const Place& numerics) {
+  const std::string& foam = tables::default_model().name;
+  const auto other = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const Material& m) { return tables::model_of(m.law).name != foam; });
+  if (other == scene.materials.end()) return;
+  const Value* given = document.find("numerics");
+  const auto refuse = [&](const char* key, const std::string& allowed, const std::string& what) {
+    numerics.at(key).refuse(given != nullptr ? given->find(key) : nullptr, allowed + " beside other models",
+                            what + " of the model \"" + foam + "\" only, and \"" + other->name +
+                                "\" is of the model \"" + tables::model_of(other->law).name + "\". Take \"" +
+                                key + "\" out.");
+  };
+  if (scene.numerics.integration != Integration::kExplicit)
+    refuse("integration", "\"explicit\"", "Semi-implicit steps know the stiffness of materials");
+  if (scene.numerics.resampling)
+    refuse("resampling", "null, or left out,", "Resampling inserts and merges points of materials");
 }
 
 void check_no_phases_in_mpm(const Scene& scene, const Place& materials) {
@@ -97,7 +105,7 @@ void check_periods_of_mlsrk(const Scene& scene, const Place& root) {
 
 void check_solver(const Value& document, const Scene& scene, const Place& root) {
   if (scene.solver == Solver::kMpm) {
-    check_models_of_mpm(scene, root.at("materials"));
+    check_foam_only(document, scene, root.at("numerics"));
     check_no_phases_in_mpm(scene, root.at("materials"));
     if (!scene.grips.empty())
       root.at("grips").refuse(document.find("grips"), "an empty list, or left out, with \"solver\": \"mpm\"",

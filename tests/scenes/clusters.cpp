@@ -42,9 +42,12 @@ void number_clusters(DisjointSets& joined, Clusters& c) {
 
 }  // namespace
 
-Clusters find_clusters(const Simulation& simulation, double reach) {
+Clusters find_clusters(const Simulation& simulation, double reach,
+                       const std::function<bool(const PointState&)>& taken) {
   Clusters c;
-  simulation.visit_points([&](const PointState& p) { c.points.push_back(p); });
+  simulation.visit_points([&](const PointState& p) {
+    if (!taken || taken(p)) c.points.push_back(p);
+  });
   const auto bins = binned(c.points, reach);
   DisjointSets joined(c.points.size());
   for (const auto& [cell, here] : bins) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "sim/simulation.h"
@@ -21,6 +22,8 @@ struct Clusters {
   }
 };
 
-[[nodiscard]] Clusters find_clusters(const Simulation& simulation, double reach);
+/// Of all points, or of those that `taken` says.
+[[nodiscard]] Clusters find_clusters(const Simulation& simulation, double reach,
+                                     const std::function<bool(const PointState&)>& taken = {});
 
 }  // namespace lather::testing_support

@@ -29,6 +29,13 @@ TEST(FallingBlock, FloatsWhereTheyAreNot) {
   EXPECT_LT(share_of_free_fall(scene), 0.99);
 }
 
+// The scene's solver changes by one word.
+TEST(FallingBlock, FallsAsFreelyOnAGrid) {
+  EXPECT_NEAR(
+      share_of_free_fall(scene_file("falling-block", "preview", {{"/duration", "0.4"}, {"/solver", "mpm"}})),
+      1, 1e-6);
+}
+
 TEST(FallingBlock, BouncesAndComesBackToItsShape) {
   const Report r = run_scene(scene_file("falling-block", "preview"), 1);
   double least = 1;

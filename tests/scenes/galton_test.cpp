@@ -13,7 +13,8 @@ namespace {
 // correction takes them from the points' places.
 TEST(GaltonBoard, KeepsTheWatersAreaWithTheVolumeCorrectionAndNotWithout) {
   const double corrected = area_kept("preview", {}, 1);
-  const double drifting = area_kept("preview", {{"/numerics/mlsrk/volume_correction", "false"}}, 1);
+  const double drifting = area_kept(
+      "preview", {{"/numerics/mlsrk/volume_correction", "false"}, {"/numerics/time_step", "2e-4"}}, 1);
   std::printf("  area at rest over that at the start: %.4f with the correction, %.4f without\n", corrected,
               drifting);
   EXPECT_NEAR(corrected, 1, 0.02);

@@ -22,5 +22,17 @@ TEST(MixtureDamBreak, LiquidsOfOneDensityStayMixed) {
   EXPECT_LT(std::abs(s.end), 0.25);
 }
 
+// On a grid, points of both liquids in one cell get the same acceleration, so that neither can sink through
+// the other; more nodes do not help. The paper's finer grid takes half the step.
+TEST(MixtureDamBreak, NoGridOfAsManyPointsOrNodesPartsTheLiquids) {
+  const ComparedSeparation by = compare_separations("preview", 2.25, 2e-4, 1);
+  EXPECT_EQ(by.equal_points.points, by.particles.points);
+  EXPECT_EQ(by.equal_nodes.points, 4 * by.particles.points);
+  for (const Separation& grid : {by.equal_points, by.equal_nodes}) {
+    EXPECT_LT(grid.end, 0.25);
+    EXPECT_GT(by.particles.end, grid.end + 0.25);
+  }
+}
+
 }  // namespace
 }  // namespace lather::testing_support

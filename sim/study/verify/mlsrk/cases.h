@@ -14,6 +14,12 @@ namespace lather::study::mlsrk {
 /// Energy and both momenta of a closed elastic body without the blend.
 [[nodiscard]] std::vector<Finding> verify_energy(int threads);
 
+/// How fast a wave of concentration fades; the mass of a component.
+[[nodiscard]] std::vector<Finding> verify_diffusion(int threads);
+/// Pressure in a column of liquid at rest.
+[[nodiscard]] std::vector<Finding> verify_column(int threads);
+/// A beam under its own weight.
+[[nodiscard]] std::vector<Finding> verify_cantilever(int threads);
 /// Collapse of a column of water against measurements.
 [[nodiscard]] std::vector<Finding> verify_dam_break(int threads);
 /// Collapse of a column of sand against measurements.

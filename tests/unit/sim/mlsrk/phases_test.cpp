@@ -59,7 +59,7 @@ TEST_P(Phases, KeepTheMassOfAComponentWherePointsMoveBesideWhatTakesNoPart) {
   EXPECT_LT(mass_drift(run(three_blocks(GetParam()), {{"/numerics/precision", "float"}})), 1e-7);
 }
 
-// [MLSRK Figure 5], and NOTES on the lumped form: what balances something else does not keep the mass.
+// [MLSRK Figure 5] What balances something else does not keep the mass.
 TEST_P(Phases, OtherBalancesDoNotKeepIt) {
   for (const char* balance : {"lumped-mass", "concentration"}) {
     const Report r = run(three_blocks(GetParam()), {{"/numerics/mlsrk/phases/balance", balance}});
@@ -139,6 +139,13 @@ std::string free_halves(const char* density) {
   for (const char* given : {R"("density": 500, )", R"("density": 1000, )"})
     json.replace(json.find(given), std::string(given).size(), "");
   return json;
+}
+
+// Nothing but the concentrations themselves shows it: here no law reads them.
+TEST(Phase, ThatGrowsWithoutBoundEndsTheRun) {
+  const std::string fast = R"({"concentration": 0, "mobility": 10})";
+  const std::string scene = halves(fast, R"({"concentration": 1, "mobility": 10})");
+  EXPECT_THROW(run(scene, {{"/numerics/time_step", "1e-3"}, {"/duration", "1"}}), SimulationError);
 }
 
 // The mass is 320 kg/m from the start, rho = 1000 kg/m^3 at both ends of c and 800 in the middle, where all

@@ -174,6 +174,32 @@ TEST(MlsrkVolumes, ComeFromNeighboursWhereTheyAreCorrected) {
   }
 }
 
+/// Snow thrown on the floor, which compacts and hardens, and a block that rests far above it, as stiff as
+/// `youngs_modulus` (Pa), in 2D.
+std::string crushed_snow(const std::string& youngs_modulus) {
+  return R"({"lather": 1, "name": "crushed", "solver": "mlsrk", "dimension": 2, "gravity": [0, 0],
+    "domain": {"min": [0, 0], "max": [1, 1]}, "duration": 0.05, "frame_rate": 100, "spacing": 0.02,
+    "materials": [
+      {"name": "snow", "model": "snow", "density": 400, "youngs_modulus": 1e5, "poisson_ratio": 0.2},
+      {"name": "block", "model": "neo-hookean", "density": 400, "poisson_ratio": 0.2, "youngs_modulus": )" +
+         youngs_modulus + R"(}],
+    "bodies": [
+      {"name": "snow", "material": "snow", "shape": {"type": "box", "size": [0.2, 0.1, 1], "translate": [0.5, 0.06, 0]},
+       "velocity": [0, -3, 0]},
+      {"name": "block", "material": "block", "shape": {"type": "box", "size": [0.1, 0.1, 1], "translate": [0.5, 0.8, 0]}}]})";
+}
+
+// Steps are bound by the fastest wave: that of the hardened snow beside a soft block, that of the block where
+// its waves are 6.3 times as fast as fresh snow's, which the hardened snow's are not.
+TEST(MlsrkStep, ShortensForHardenedPointsOnlyWhereTheirWavesAreTheFastest) {
+  const auto steps_over_planned = [](const std::string& youngs_modulus) {
+    const std::string scene = crushed_snow(youngs_modulus);
+    return static_cast<double>(run(scene).steps) / static_cast<double>(make_plan(parse_scene(scene)).steps);
+  };
+  EXPECT_GT(steps_over_planned("1e4"), 1.3);
+  EXPECT_EQ(steps_over_planned("4e6"), 1);
+}
+
 // A single point has no neighbours: no moment matrix of rank, no gradient, nothing but gravity.
 TEST_P(MlsrkRun, AnIsolatedPointFallsFreely) {
   for (const char* r0 : {"0", "1e-3"}) {

@@ -50,7 +50,11 @@ struct Sample {
         table(mpm::kernel_table<double>(level)),
         kernels(table.step[dim - 2][with_cubic ? 1 : 0][with_apic ? 1 : 0]),
         set(dim, fields(with_apic, tears), Vec3::Zero(), kCell) {
-    material = {0.5, 0.002, {1000, 300, 1e300, 1, 1, 1, 2.2e-16}, {1e300}};
+    material.mass = 0.5;
+    material.volume = 0.002;
+    material.law.herschel_bulkley = {1000, 300, 1e300, 1, 1, 1, 2.2e-16};
+    material.tearing = {1e300};
+    material.kernels = table.laws[dim - 2][0];
     std::mt19937 rng(static_cast<unsigned>(11 + dim));
     std::uniform_real_distribution<double> place(3.5, 7.5);
     std::uniform_real_distribution<double> value(-1, 1);
@@ -129,7 +133,7 @@ struct Sample {
     for (int c = 0; c < (dimension == 3 ? 6 : 4); ++c)
       state[1 + c] = set.values<double>(t, Field::kElasticStrain, c)[lane];
     double s[6];
-    table.point.stress(material.law, state, s);
+    table.point.stress(material.law.herschel_bulkley, state, s);
     Mat3 tau;
     tau << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
     return tau;

@@ -21,7 +21,7 @@ void normalize_strains(Sample& s) {
     double state[7] = {s.set.values<double>(t, Field::kVolumeChange)[lane]};
     const int count = s.dimension == 3 ? 6 : 4;
     for (int c = 0; c < count; ++c) state[1 + c] = s.set.values<double>(t, Field::kElasticStrain, c)[lane];
-    s.table.point.law_step(s.material.law, still, kStep, state);
+    s.table.point.law_step(s.material.law.herschel_bulkley, still, kStep, state);
     for (int c = 0; c < count; ++c) s.set.values<double>(t, Field::kElasticStrain, c)[lane] = state[1 + c];
   });
 }
@@ -61,9 +61,9 @@ std::vector<double> moved_impulse(Sample& s, const std::vector<double>& velocity
       state[1 + c] = s.set.values<double>(t, Field::kElasticStrain, c)[lane];
     double rows[9];
     for (int i = 0; i < 9; ++i) rows[i] = A(i / 3, i % 3);
-    s.table.point.law_step(s.material.law, rows, kStep, state);
+    s.table.point.law_step(s.material.law.herschel_bulkley, rows, kStep, state);
     double stress[6];
-    s.table.point.stress(s.material.law, state, stress);
+    s.table.point.stress(s.material.law.herschel_bulkley, state, stress);
     Mat3 tau;
     tau << stress[0], stress[3], stress[4], stress[3], stress[1], stress[5], stress[4], stress[5], stress[2];
     const Mat3 sigma = tau * (Mat3::Identity() + A).inverse().transpose();

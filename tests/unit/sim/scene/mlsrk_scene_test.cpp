@@ -211,13 +211,22 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{
             {{"/materials/4/model", "7"}}, "/materials/4/model", "\"liquid\"", "must be one of the names"}));
 
-TEST(MpmScene, RefusesTheModelsThatItsSolverDoesNotKnow) {
-  const std::vector<Problem> problems = problems_of(mlsrk_scene({{"/solver", "\"mpm\""}}));
-  ASSERT_EQ(problems.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(problems[i].pointer, "/materials/" + std::to_string(i + 1) + "/model");
-    EXPECT_NE(problems[i].allowed.find("\"herschel-bulkley\""), std::string::npos);
-    EXPECT_NE(problems[i].message.find("Set \"solver\" to \"mlsrk\""), std::string::npos);
+TEST(MpmScene, TakesEveryModelSoThatASceneChangesItsSolverByOneWord) {
+  EXPECT_TRUE(problems_of(mlsrk_scene({{"/solver", "\"mpm\""}})).empty());
+}
+
+TEST(MpmScene, RefusesBesideOtherModelsWhatItCanDoWithFoamAlone) {
+  const std::vector<std::pair<std::string, std::string>> foam_only = {{"integration", "\"semi-implicit\""},
+                                                                      {"resampling", "{}"}};
+  for (const auto& [key, json] : foam_only) {
+    const std::string pointer = "/numerics/" + key;
+    const std::vector<Problem> problems = problems_of(mlsrk_scene({{"/solver", "\"mpm\""}, {pointer, json}}));
+    ASSERT_EQ(problems.size(), 1U) << key;
+    EXPECT_EQ(problems[0].pointer, pointer);
+    EXPECT_NE(problems[0].allowed.find("beside other models"), std::string::npos) << problems[0].allowed;
+    EXPECT_NE(problems[0].message.find("\"jelly\" is of the model \"neo-hookean\""), std::string::npos)
+        << problems[0].message;
+    EXPECT_TRUE(problems_of(with(pointer, json)).empty()) << "foam alone";
   }
 }
 
