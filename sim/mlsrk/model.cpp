@@ -21,22 +21,12 @@ LawConstants<Real> swollen_constants(const Law& law, const Material& material, i
   return c;
 }
 
-/// What holds together keeps the volume of its own deformation: one from its neighbours is at most that at
-/// rest beside empty space, which would bear no tension there.
-bool coheres(const Material& material) {
-  const std::vector<Law> laws = material.laws();
-  return std::any_of(laws.begin(), laws.end(), [](const Law& law) {
-    const auto* grains = std::get_if<DruckerPragerParameters>(&law);
-    return grains != nullptr && grains->cohesion > 0;
-  });
-}
-
 template <class Real>
-MaterialConstants<Real> material_constants(const Scene& scene, const Material& material, bool correctable) {
+MaterialConstants<Real> material_constants(const Scene& scene, const Material& material) {
   MaterialConstants<Real> c{};
   c.volume = static_cast<Real>(scene.point_volume());
   c.mass = static_cast<Real>(material.density() * scene.point_volume());
-  c.corrected = correctable && scene.numerics.mlsrk.volume_correction && !coheres(material);
+  c.corrected = scene.numerics.mlsrk.volume_correction && material.takes_volume_correction();
   c.law = law_constants<Real>(material.law, scene.dimension);
   return c;
 }
@@ -89,7 +79,7 @@ Model<Real>::Model(const Plan& plan) : scene(plan.scene), bounds(cell_bounds(pla
     if (by_c.size() > 1)
       for (const Law& law : by_c) constants.push_back(swollen_constants<Real>(law, m, scene.dimension));
     laws.push_back(table.laws[dimension][constants.empty() ? 0 : 1][m.law.index()]);
-    materials.push_back(material_constants<Real>(scene, m, laws.back().correct != nullptr));
+    materials.push_back(material_constants<Real>(scene, m));
     corrects = corrects || materials.back().corrected;
     by_concentration.push_back(std::move(constants));
     if (!by_concentration.back().empty()) materials.back().by_concentration = by_concentration.back().data();

@@ -108,9 +108,7 @@ void warn_of_volumes(Plan& plan) {
   if (plan.scene.solver != Solver::kMpm) return;
   std::string names;
   for (const Material& m : plan.scene.materials)
-    if (std::holds_alternative<LiquidParameters>(m.law) ||
-        std::holds_alternative<DruckerPragerParameters>(m.law))
-      names += (names.empty() ? "\"" : ", \"") + m.name + "\"";
+    if (m.takes_volume_correction()) names += (names.empty() ? "\"" : ", \"") + m.name + "\"";
   if (names.empty()) return;
   plan.warnings.push_back("Volumes of " + names +
                           " follow from the deformation alone, as the solver \"mpm\" has no correction from "

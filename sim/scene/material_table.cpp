@@ -252,4 +252,12 @@ std::vector<Law> Material::laws() const {
   return out;
 }
 
+bool Material::takes_volume_correction() const {
+  const std::vector<Law> all = laws();
+  return std::all_of(all.begin(), all.end(), [](const Law& l) {
+    const auto* grains = std::get_if<DruckerPragerParameters>(&l);
+    return std::holds_alternative<LiquidParameters>(l) || (grains != nullptr && grains->cohesion == 0);
+  });
+}
+
 }  // namespace lather

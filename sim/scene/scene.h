@@ -60,6 +60,10 @@ struct Material {
   /// The law at kConcentrationNodes + 1 concentrations, evenly from 0 to 1; where nothing changes with the
   /// concentration, the law alone.
   [[nodiscard]] std::vector<Law> laws() const;
+  /// Whether its volume may follow from its neighbours [MLSRK eq. 19]: a liquid, or grains without cohesion
+  /// at any concentration. What coheres keeps the volume of its own deformation: one from its neighbours is
+  /// at most that at rest beside empty space, which would bear no tension there.
+  [[nodiscard]] bool takes_volume_correction() const;
   /// The law of a material that is known to be a Herschel-Bulkley one.
   [[nodiscard]] const HerschelBulkleyParameters& herschel_bulkley() const {
     return std::get<HerschelBulkleyParameters>(law);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sim/math/disjoint_sets.h"
 
@@ -40,24 +41,68 @@ void number_clusters(DisjointSets& joined, Clusters& c) {
   for (std::uint32_t i = 0; i < c.points.size(); ++i) c.cluster.push_back(number[joined.root(i)]);
 }
 
-}  // namespace
-
-Clusters find_clusters(const Simulation& simulation, double reach,
-                       const std::function<bool(const PointState&)>& taken) {
-  Clusters c;
+std::vector<PointState> points_of(const Simulation& simulation,
+                                  const std::function<bool(const PointState&)>& taken) {
+  std::vector<PointState> points;
   simulation.visit_points([&](const PointState& p) {
-    if (!taken || taken(p)) c.points.push_back(p);
+    if (!taken || taken(p)) points.push_back(p);
   });
-  const auto bins = binned(c.points, reach);
-  DisjointSets joined(c.points.size());
+  return points;
+}
+
+/// f(i, j) of all pairs no further apart than `reach`.
+template <class F>
+void for_pairs(const std::vector<PointState>& points, double reach, F f) {
+  const auto bins = binned(points, reach);
   for (const auto& [cell, here] : bins) {
     for (int n = 0; n < 27; ++n) {
       const auto there = bins.find({cell[0] + n / 9 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n % 3 - 1});
       if (there == bins.end() || there->first < cell) continue;
       for (const std::uint32_t i : here)
         for (const std::uint32_t j : there->second)
-          if ((c.points[i].position - c.points[j].position).squaredNorm() <= reach * reach) joined.join(i, j);
+          if ((points[i].position - points[j].position).squaredNorm() <= reach * reach) f(i, j);
     }
+  }
+}
+
+}  // namespace
+
+Clusters find_clusters(const Simulation& simulation, double reach,
+                       const std::function<bool(const PointState&)>& taken) {
+  Clusters c;
+  c.points = points_of(simulation, taken);
+  DisjointSets joined(c.points.size());
+  for_pairs(c.points, reach, [&](std::uint32_t i, std::uint32_t j) { joined.join(i, j); });
+  number_clusters(joined, c);
+  return c;
+}
+
+Bonds find_bonds(const Simulation& simulation, double reach,
+                 const std::function<bool(const PointState&)>& taken) {
+  const std::vector<PointState> points = points_of(simulation, taken);
+  Bonds bonds;
+  for_pairs(points, reach, [&](std::uint32_t i, std::uint32_t j) {
+    if (i != j) bonds.push_back(std::minmax({points[i].id, points[j].id}));
+  });
+  std::sort(bonds.begin(), bonds.end());
+  bonds.erase(std::unique(bonds.begin(), bonds.end()), bonds.end());
+  return bonds;
+}
+
+Clusters find_pieces(const Simulation& simulation, double reach, const Bonds& bonds) {
+  std::set<std::uint32_t> bound;
+  for (const auto& [a, b] : bonds) bound.insert({a, b});
+  Clusters c;
+  c.points = points_of(simulation, [&](const PointState& p) { return bound.count(p.id) != 0; });
+  std::map<std::uint32_t, std::uint32_t> place;
+  for (std::uint32_t i = 0; i < c.points.size(); ++i) place[c.points[i].id] = i;
+  DisjointSets joined(c.points.size());
+  for (const auto& [a, b] : bonds) {
+    const auto i = place.find(a);
+    const auto j = place.find(b);
+    if (i == place.end() || j == place.end()) continue;  // one has left the domain
+    if ((c.points[i->second].position - c.points[j->second].position).squaredNorm() <= reach * reach)
+      joined.join(i->second, j->second);
   }
   number_clusters(joined, c);
   return c;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "sim/simulation.h"
@@ -22,8 +23,19 @@ struct Clusters {
   }
 };
 
+/// Pairs of points by their ids, the lesser first, in ascending order.
+using Bonds = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
 /// Of all points, or of those that `taken` says.
 [[nodiscard]] Clusters find_clusters(const Simulation& simulation, double reach,
                                      const std::function<bool(const PointState&)>& taken = {});
+
+/// All pairs no further apart than `reach` (m), of those that `taken` says.
+[[nodiscard]] Bonds find_bonds(const Simulation& simulation, double reach,
+                               const std::function<bool(const PointState&)>& taken);
+
+/// Sets of the points of `bonds` joined by chains of those bonds that are no longer than `reach` (m): pieces
+/// of what was whole once, also where they touch again.
+[[nodiscard]] Clusters find_pieces(const Simulation& simulation, double reach, const Bonds& bonds);
 
 }  // namespace lather::testing_support

@@ -53,6 +53,11 @@ std::array<Axis, 3> axes_of(const Scene& scene, const Box3& tank) {
 
 }  // namespace
 
+double floor_area(const Scene& scene) {
+  const Vec3 extent = scene.domain.box.extent();
+  return extent.x() * (scene.dimension == 3 ? extent.z() : 1);
+}
+
 double covered_volume(const Scene& scene, const Simulation& simulation, const Box3& tank) {
   const std::array<Axis, 3> axes = axes_of(scene, tank);
   const double a = 0.5 * scene.numerics.mlsrk.support_radius * scene.spacing;

@@ -4,6 +4,9 @@
 
 namespace lather::testing_support {
 
+/// Of the domain, m^2 (its width, m, in 2D).
+[[nodiscard]] double floor_area(const Scene& scene);
+
 /// Volume (area in 2D) that the material covers in a tank whose floor and sides are walls, m^3: where the sum
 /// of the cubic splines of the points and of their mirror images in those walls is above half of what it is
 /// inside a full lattice.

@@ -23,4 +23,12 @@ struct Dissolution {
 [[nodiscard]] Dissolution run_dissolution(const std::string& name, const std::string& size, double landed,
                                           const std::vector<Override>& overrides, int threads);
 
+/// The 2D powder keeps its own mass and that of what dissolves, and takes less room in the end; a balance of
+/// the concentration alone loses a share of `lost` at least.
+void expect_powder_keeps_its_masses(const std::string& size, double lost, int threads);
+
+/// The starch floats, dissolves, and takes as much room as its density curve says, but for a share of
+/// `volume_error`.
+void expect_starch_floats_and_dissolves(const std::string& size, double volume_error, int threads);
+
 }  // namespace lather::testing_support

@@ -9,22 +9,12 @@ namespace lather::testing_support {
 namespace {
 
 TEST(DissolvingPowder, KeepsItsMassAndThatOfTheWater) {
-  const Dissolution kept = run_dissolution("dissolving-powder-2d", "paper", 0.4, {}, 0);
-  EXPECT_LT(kept.component_drift, 1e-7);
-  EXPECT_GT(kept.shrinkage, 0.1);
-  const Dissolution lost = run_dissolution("dissolving-powder-2d", "paper", 0.4,
-                                           {{"/numerics/mlsrk/phases/balance", "\"concentration\""}}, 0);
-  EXPECT_GT(lost.component_drift, 0.02);
+  expect_powder_keeps_its_masses("paper", 0.02, 0);
 }
 
+// Half a spacing of the thirteen that the paste is deep.
 TEST(Starch, FloatsThenDissolvesAndTakesAsMuchRoomAsItsDensityCurveSays) {
-  const Dissolution d = run_dissolution("starch", "coarse", 0.1, {}, 0);
-  EXPECT_GT(d.floating, 0.5);
-  EXPECT_GT(d.dry_first, 0.5);
-  EXPECT_EQ(d.dry_last, 0);
-  EXPECT_NEAR(d.shrinkage, d.full_shrinkage, 0.05 * d.full_shrinkage);
-  // Half a spacing of the thirteen that the paste is deep.
-  EXPECT_NEAR(d.volume_error, 0, 0.04);
+  expect_starch_floats_and_dissolves("coarse", 0.04, 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "tests/scenes/coverage.h"
 #include "tests/scenes/scene_run.h"
 
 namespace lather::testing_support {
@@ -15,9 +16,7 @@ double separation_index(const Scene& scene, const Simulation& simulation) {
     ++points[p.material];
   });
   // Layers of depths h_1 and h_2 have their middles (h_1 + h_2) / 2 apart.
-  const Vec3 across = scene.domain.box.extent();
-  const double floor = across.x() * (scene.dimension == 3 ? across.z() : 1);
-  const double depth = (points[0] + points[1]) * scene.point_volume() / floor;
+  const double depth = (points[0] + points[1]) * scene.point_volume() / floor_area(scene);
   return (height[1] / points[1] - height[0] / points[0]) / (depth / 2);
 }
 

@@ -8,9 +8,9 @@
 
 namespace lather::testing_support {
 
-/// How far the first two materials of a 2D scene have separated: the mean height of the second's points less
-/// that of the first's, over the same where each lies in a layer of its own across the whole domain. About 0
-/// for a mixture; waves take it beyond 1 for moments.
+/// How far the first two materials of a scene have separated: the mean height of the second's points less
+/// that of the first's, over the same where each lies in a layer of its own on the whole floor. About 0 for a
+/// mixture; waves take it beyond 1 for moments.
 [[nodiscard]] double separation_index(const Scene& scene, const Simulation& simulation);
 
 /// Means over half a second at the start, in the middle and at the end of a run; its cost.

@@ -20,7 +20,7 @@ const Body& body_of(const Scene& scene, const std::string& name) {
 class Ball {
  public:
   Ball(const Scene& scene, const Simulation& at_start)
-      : reach_(2 * scene.spacing), layer_(body_of(scene, "layer")) {
+      : spacing_(scene.spacing), layer_(body_of(scene, "layer")) {
     const Body& ball = body_of(scene, "ball");
     const Box3 box = bounds(*ball.shape, scene.domain.box);
     radius_ = 0.5 * box.extent().x();
@@ -33,6 +33,7 @@ class Ball {
           distance(*ball.shape, p.position) < scene.spacing)
         own_.insert(p.id);
     });
+    bonds_ = bonds_of(own_, at_start);
     for (std::uint32_t m = 0; m < scene.materials.size(); ++m)
       if (scene.materials[m].name == layer_.material) fresh_ = m;
   }
@@ -52,28 +53,31 @@ class Ball {
     return count / static_cast<double>(own_.size());
   }
   [[nodiscard]] double whole(const Simulation& simulation) const {
-    return find_clusters(simulation, reach_, [&](const PointState& p) { return is_own(p); }).share(0);
+    return pieces(simulation, bonds_).share(0);
   }
   /// Ball and the snow around it, without what lies under it.
-  [[nodiscard]] std::set<std::uint32_t> rolling(const Simulation& simulation) const {
+  [[nodiscard]] Bonds rolling(const Simulation& simulation) const {
     std::set<std::uint32_t> ids = own_;
     simulation.visit_points([&](const PointState& p) {
       if (rides(p, -radius_)) ids.insert(p.id);
     });
-    return ids;
+    return bonds_of(ids, simulation);
   }
-  [[nodiscard]] Clusters pieces_of(const std::set<std::uint32_t>& ids, const Simulation& simulation) const {
-    return find_clusters(simulation, reach_, [&](const PointState& p) { return ids.count(p.id) != 0; });
+  [[nodiscard]] Clusters pieces(const Simulation& simulation, const Bonds& bonds) const {
+    return find_pieces(simulation, 2 * spacing_, bonds);
   }
 
  private:
+  [[nodiscard]] Bonds bonds_of(const std::set<std::uint32_t>& ids, const Simulation& simulation) const {
+    return find_bonds(simulation, 1.5 * spacing_, [&](const PointState& p) { return ids.count(p.id) != 0; });
+  }
   [[nodiscard]] bool is_own(const PointState& p) const { return own_.count(p.id) != 0; }
   [[nodiscard]] bool rides(const PointState& p, double above) const {
     const Vec3 from = p.position - middle_;
     return p.material == fresh_ && from.norm() < 2.2 * radius_ && from.dot(up_) > above;
   }
 
-  double reach_;
+  double spacing_;
   const Body& layer_;
   std::uint32_t fresh_ = 0;
   double radius_ = 0;
@@ -81,6 +85,7 @@ class Ball {
   Vec3 up_ = Vec3::UnitY();
   Vec3 middle_ = Vec3::Zero();
   std::set<std::uint32_t> own_;
+  Bonds bonds_;
 };
 
 }  // namespace
@@ -89,7 +94,7 @@ Roll run_roll(const std::string& size, const std::vector<Override>& overrides, i
   const Scene scene = scene_file("snowball", size, overrides);
   std::optional<Ball> ball;
   std::vector<double> grown;
-  std::set<std::uint32_t> rolled;
+  Bonds rolled;
   Roll roll;
   run_scene(scene, threads, [&](int frame, const Simulation& simulation) {
     if (frame == 0) ball.emplace(scene, simulation);
@@ -100,7 +105,7 @@ Roll run_roll(const std::string& size, const std::vector<Override>& overrides, i
       rolled = ball->rolling(simulation);
     }
     if (frame < scene.last_frame()) return;
-    const Clusters left = ball->pieces_of(rolled, simulation);
+    const Clusters left = ball->pieces(simulation, rolled);
     while (left.share(roll.pieces) >= 0.02) ++roll.pieces;
     roll.largest = left.share(0);
   });

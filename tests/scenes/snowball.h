@@ -18,8 +18,10 @@ struct Roll {
   double largest = 0;      ///< share of the largest of them
 };
 
-/// Pieces are points joined by chains of links of 2 spacings, the kernel's reach being 3; of those at the end
-/// the ones count that hold 2 % or more. Snow rides within 2.2 radii of the ball's middle.
+/// Pieces are points joined by chains of neighbours that stayed neighbours: no more than 1.5 spacings apart
+/// at first (at the start for the ball, as it leaves the slope for all that rolls) and 2 in the end, so that
+/// debris which comes to lie on debris counts as broken off. Of those at the end the ones count that hold 2 %
+/// or more. Snow rides within 2.2 radii of the ball's middle.
 [[nodiscard]] Roll run_roll(const std::string& size, const std::vector<Override>& overrides, int threads);
 
 }  // namespace lather::testing_support

@@ -1,6 +1,6 @@
 // A snowball rolls down a slope and falls on a stack of others [MLSRK Figure 2] at preview: a cut through the
-// scene, in 2D, at the paper's spacing of 5 mm. Other seeds (jitters) gave 0.26 … 0.29, 0.38 … 0.40 and
-// 0.89 … 0.92 of growth and 2 to 7 pieces, the largest 45 to 72 %.
+// scene, in 2D, at the paper's spacing of 5 mm. Other seeds (jitters) gave 0.25 … 0.29, 0.38 … 0.40 and
+// 0.90 … 0.92 of growth and 9 to 14 pieces, the largest 21 to 44 %.
 
 #include "tests/scenes/snowball.h"
 

@@ -6,21 +6,18 @@
 #include <cmath>
 
 #include "sim/plan/plan.h"
+#include "tests/support/law_scenes.h"
 #include "tests/support/run_scene.h"
 
 namespace lather {
 namespace {
 
 using testing_support::run;
-
-std::string set_dimension(std::string json, int dimension) {
-  json.replace(json.find("DIM"), 3, std::to_string(dimension));
-  return json;
-}
+using testing_support::with_dimension;
 
 /// A dry and a wet block of jelly that meet, and a stone between them that takes no part.
 std::string three_blocks(int dimension) {
-  return set_dimension(R"({"lather": 1, "name": "blocks", "solver": "mlsrk", "dimension": DIM,
+  return with_dimension(R"({"lather": 1, "name": "blocks", "solver": "mlsrk", "dimension": DIM,
     "domain": {"min": [-1, -1, -1], "max": [1, 1, 1], "boundary": "open"}, "gravity": [0, 0, 0],
     "duration": 0.05, "frame_rate": 100, "spacing": 0.05, "jitter": 0.3, "seed": 3,
     "materials": [

@@ -5,47 +5,22 @@
 
 #include <cmath>
 
+#include "tests/support/law_scenes.h"
 #include "tests/support/run_scene.h"
 
 namespace lather {
 namespace {
 
 using testing_support::run;
+using testing_support::with_dimension;
 
-std::string set_dimension(std::string json, int dimension) {
-  json.replace(json.find("DIM"), 3, std::to_string(dimension));
-  return json;
-}
-
-/// One body of every law, close enough to touch at once, a peg in their way, water from above.
+/// All laws on a grid, with what only it has: water from above, probes.
 std::string all_laws(int dimension) {
-  return set_dimension(R"({"lather": 1, "name": "all laws", "dimension": DIM,
-    "domain": {"min": [0, 0, 0], "max": [1.2, 0.8, 0.4], "periodic": [true, false, false]},
-    "duration": 0.04, "frame_rate": 100, "spacing": 0.05, "jitter": 0.1, "seed": 7,
-    "materials": [
-      {"name": "foam", "preset": "shaving-cream"},
-      {"name": "jelly", "model": "neo-hookean", "density": 1000, "youngs_modulus": 1e5, "poisson_ratio": 0.3,
-       "viscosity": 5},
-      {"name": "sand", "model": "drucker-prager", "density": 1500, "youngs_modulus": 1e5, "poisson_ratio": 0.2,
-       "friction_angle_deg": 30},
-      {"name": "snow", "model": "snow", "density": 400, "youngs_modulus": 1e5, "poisson_ratio": 0.2},
-      {"name": "water", "model": "liquid", "density": 1000, "bulk_modulus": 1e5, "viscosity": 1}],
-    "bodies": [
-      {"name": "foam", "material": "foam", "shape": {"type": "box", "size": [0.2, 0.2, 0.5], "translate": [0.1, 0.15, 0.2]}},
-      {"name": "jelly", "material": "jelly", "shape": {"type": "box", "size": [0.2, 0.2, 0.5], "translate": [0.33, 0.2, 0.2]},
-       "velocity": [-1, -1, 0]},
-      {"name": "sand", "material": "sand", "shape": {"type": "box", "size": [0.2, 0.3, 0.5], "translate": [0.55, 0.15, 0.2]}},
-      {"name": "snow", "material": "snow", "shape": {"type": "sphere", "radius": 0.12, "translate": [0.8, 0.15, 0.1]},
-       "velocity": [-2, 0, 0]},
-      {"name": "water", "material": "water", "shape": {"type": "box", "size": [0.2, 0.3, 0.5], "translate": [1.03, 0.16, 0.2]}}],
-    "obstacles": [{"name": "peg", "shape": {"type": "sphere", "radius": 0.06, "translate": [0.4, 0.04, 0.2]},
-                   "friction": 0.3}],
+  return testing_support::all_laws(dimension, "", R"("look": {"color_by": "J"},
     "emitters": [{"name": "drops", "material": "water", "velocity": [0, -3, 0], "interval": 0.02, "count": 2,
                   "shape": {"type": "box", "size": [0.15, 0.15, 0.5], "translate": [0.6, 0.6, 0.2]}}],
     "probes": [{"type": "force", "name": "load", "obstacle": "peg"},
-               {"type": "point", "name": "inside", "at": [0.55, 0.15, 0.2]}],
-    "look": {"color_by": "J"}})",
-                       dimension);
+               {"type": "point", "name": "inside", "at": [0.55, 0.15, 0.2]}])");
 }
 
 /// Both dimensions, both transfers.
@@ -93,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, LawsOnTheGrid,
 /// A block of a neo-Hookean solid of 4 x 6 (x 5) cells, free in a wide domain: T = 2 L / c = 60 ms for L =
 /// 0.3 m, c = sqrt(E / rho) = 10 m/s.
 std::string free_block(int dimension) {
-  return set_dimension(R"({"lather": 1, "name": "block", "dimension": DIM,
+  return with_dimension(R"({"lather": 1, "name": "block", "dimension": DIM,
     "domain": {"min": [-2, -2, -2], "max": [2, 2, 2], "boundary": "open"}, "gravity": [0, 0, 0],
     "duration": 0.3, "frame_rate": 50, "spacing": 0.05,
     "materials": [{"name": "jelly", "model": "neo-hookean", "density": 1000, "youngs_modulus": 1e5,
@@ -102,7 +77,7 @@ std::string free_block(int dimension) {
                 "velocity_gradient": [[0, 0, 0], [0, 2, 0], [0, 0, 0]],
                 "shape": {"type": "box", "size": [0.2, 0.3, 0.25], "translate": [0.5, 0.35, 0.025]}}],
     "numerics": {"precision": "double", "transfer": "apic", "kernel": "quadratic"}})",
-                       dimension);
+                        dimension);
 }
 
 double energy(const FrameMeasure& f) {

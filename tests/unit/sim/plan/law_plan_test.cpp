@@ -6,9 +6,15 @@
 #include <cmath>
 
 #include "sim/plan/plan.h"
+#include "tests/support/law_scenes.h"
 
 namespace lather {
 namespace {
+
+using testing_support::kJelly;
+using testing_support::kSand;
+using testing_support::kSnow;
+using testing_support::kWater;
 
 /// A ball of one material on a grid of 10 mm in free space; `law` are the material's keys.
 Plan plan_of(const std::string& law, const std::vector<Override>& overrides = {}) {
@@ -27,14 +33,6 @@ std::vector<std::string> fields_of(const std::string& law, const std::vector<Ove
   for (const PlannedField& f : plan.materials.at(0).fields) names.push_back(f.name);
   return names;
 }
-
-const char* const kJelly =
-    R"("model": "neo-hookean", "density": 1000, "youngs_modulus": 5e3, "poisson_ratio": 0.4)";
-const char* const kSand =
-    R"("model": "drucker-prager", "density": 1600, "youngs_modulus": 1e6, "poisson_ratio": 0.3,
-       "friction_angle_deg": 30)";
-const char* const kSnow = R"("model": "snow", "density": 400, "youngs_modulus": 1.4e5, "poisson_ratio": 0.2)";
-const char* const kWater = R"("model": "liquid", "density": 1000, "bulk_modulus": 1e5)";
 
 TEST(LawPlan, AMaterialCarriesWhatItsLawKeepsAndNothingElse) {
   const auto with = [](std::vector<std::string> law) {
@@ -59,7 +57,7 @@ TEST(LawPlan, AMaterialCarriesWhatItsLawKeepsAndNothingElse) {
 TEST(LawPlan, TheStepIsBoundByWavesAndViscosity) {
   EXPECT_NEAR(plan_of(kWater).step_bound, 0.01 / 10, 1e-15);
   // In 3D (4/3 mu_v + mu_v) / rho of diffusion, h^2 over twice of it.
-  EXPECT_NEAR(plan_of(std::string(kWater) + R"(, "viscosity": 30)").step_bound, 1e-4 / (2 * 0.07), 1e-15);
+  EXPECT_NEAR(plan_of(kWater + R"(, "viscosity": 30)").step_bound, 1e-4 / (2 * 0.07), 1e-15);
 }
 
 TEST(LawPlan, SaysThatVolumesOfLiquidsAndGrainsAreNotCorrected) {
@@ -70,6 +68,7 @@ TEST(LawPlan, SaysThatVolumesOfLiquidsAndGrainsAreNotCorrected) {
   };
   EXPECT_TRUE(says(kWater));
   EXPECT_TRUE(says(kSand));
+  EXPECT_FALSE(says(kSand + R"(, "cohesion": 0.01)"));  // keeps that of its deformation on both solvers
   EXPECT_FALSE(says(kSnow));
   EXPECT_FALSE(says(kJelly));
   EXPECT_FALSE(says(R"("preset": "shaving-cream")"));

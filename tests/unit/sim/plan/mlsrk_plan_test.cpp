@@ -7,9 +7,15 @@
 
 #include "sim/plan/plan.h"
 #include "sim/plan/step_bound.h"
+#include "tests/support/law_scenes.h"
 
 namespace lather {
 namespace {
+
+using testing_support::kJelly;
+using testing_support::kSand;
+using testing_support::kSnow;
+using testing_support::kWater;
 
 /// A ball of one material at 10 mm in free space; `law` are the material's keys.
 std::string ball_of(const std::string& law) {
@@ -22,14 +28,6 @@ std::string ball_of(const std::string& law) {
 
 const char* const kFoam =
     R"("density": 100, "bulk_modulus": 1e5, "shear_modulus": 1e3, "yield_stress": 30, "viscosity": 10)";
-const char* const kJelly =
-    R"("model": "neo-hookean", "density": 1000, "youngs_modulus": 5e3, "poisson_ratio": 0.4)";
-const char* const kSand =
-    R"("model": "drucker-prager", "density": 1600, "youngs_modulus": 1e6, "poisson_ratio": 0.3,
-       "friction_angle_deg": 30)";
-const char* const kSnow = R"("model": "snow", "density": 400, "youngs_modulus": 1.4e5, "poisson_ratio": 0.2)";
-const char* const kWater = R"("model": "liquid", "density": 1000, "bulk_modulus": 1e5)";
-
 std::string viscous(const std::string& law, double shear, double bulk) {
   return law + ", \"viscosity\": " + std::to_string(shear) + ", \"bulk_viscosity\": " + std::to_string(bulk);
 }
@@ -91,7 +89,7 @@ TEST(MlsrkPlan, HasTheStagesOfItsSolverAndCollisionsOnlyWhereThereIsContact) {
 
 TEST(MlsrkPlan, OnlyMaterialsThatAGripCanTakeCarryAWordForIt) {
   const std::vector<Override> two = {
-      {"/materials", std::string("[{\"name\": \"m\", ") + kJelly + "}, {\"name\": \"sand\", " + kSand + "}]"},
+      {"/materials", "[{\"name\": \"m\", " + kJelly + "}, {\"name\": \"sand\", " + kSand + "}]"},
       {"/bodies", R"([{"name": "ball", "material": "m", "shape": {"type": "sphere", "radius": 0.1}},
                       {"name": "pile", "material": "sand",
                        "shape": {"type": "sphere", "radius": 0.1, "translate": [0.5, 0, 0]}}])"}};
@@ -143,8 +141,7 @@ TEST(MlsrkPlan, StepBoundIsTheShorterOfWavesAndViscosity) {
 }
 
 TEST(MlsrkPlan, StepBoundIsThatOfTheMaterialWhichAllowsLeast) {
-  const std::string two =
-      std::string("[{\"name\": \"m\", ") + kWater + "}, {\"name\": \"stiff\", " + kSand + "}]";
+  const std::string two = "[{\"name\": \"m\", " + kWater + "}, {\"name\": \"stiff\", " + kSand + "}]";
   const Override materials = {"/materials", two};
   EXPECT_NEAR(plan_of(kWater, {materials}).step_bound, 0.01 / 10, 1e-15);  // no body is stiff
   const double stiff = plan_of(kSand).step_bound;
