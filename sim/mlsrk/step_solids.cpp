@@ -13,7 +13,8 @@ template <class Real>
 void Stepper<Real>::fill_solids() {
   const double scale = cloud_.scale();
   const double reach = 2 * scale;
-  const LayersBehind layers(model_.scene.spacing / scale);
+  const LayersBehind layers(model_.scene.spacing / scale, model_.scene.numerics.mlsrk.kernel_shape,
+                            model_.scene.dimension);
   parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 16, [&](std::int64_t index) {
     clock_.time(Stage::kShapeFunctions, [&] {
       const auto t = static_cast<std::size_t>(index);
