@@ -33,7 +33,10 @@ bool FrameLoop::step_to_frame(int index, const std::function<bool(const Progress
     step(left / steps);
     if (steps == 1) set_time(target);
     after_step();
-    if (!heartbeat({index, moment().time, last_step_, moment().step})) return false;
+    if (!heartbeat({index, moment().time, last_step_, moment().step})) {
+      add_up();
+      return false;
+    }
   }
   record(index);
   return true;
@@ -94,6 +97,10 @@ void FrameLoop::record(int index) {
   m.step = moment().step;
   report_.frames.push_back(m);
   measured_frame_ = index;
+  add_up();
+}
+
+void FrameLoop::add_up() {
   report_.simulated_time = moment().time;
   report_.warnings = warnings();
   if (report_.wall_seconds > 0)

@@ -81,6 +81,8 @@ class FrameLoop : public Simulation {
 
  private:
   void step(double dt);
+  /// Totals of the report, of all steps so far.
+  void add_up();
   void check(const StepExtremes& seen, const Moment& start, double dt) const;
 
   std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore

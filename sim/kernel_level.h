@@ -12,4 +12,10 @@ enum class KernelLevel { kV2, kV3, kV4 };
 [[nodiscard]] KernelLevel best_kernel_level();                         ///< of the machine this runs on
 [[nodiscard]] bool machine_has(KernelLevel level);
 
+/// The one of three that belongs to a level.
+template <class T>
+[[nodiscard]] constexpr T at_level(KernelLevel level, T v2, T v3, T v4) {
+  return level == KernelLevel::kV4 ? v4 : level == KernelLevel::kV3 ? v3 : v2;
+}
+
 }  // namespace lather

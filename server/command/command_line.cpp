@@ -23,6 +23,7 @@ struct AllOptions {
   SubmitOptions submit;
   RheometerOptions rheometer;
   VerifyOptions verify;
+  BenchOptions bench;
   bool version_json = false;
   int exit_code = 0;
 };
@@ -210,6 +211,27 @@ void add_verify(CLI::App& program, AllOptions& all) {
   command.callback([&all] { all.exit_code = verify_command(all.verify); });
 }
 
+void add_bench(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "bench", "Measure how fast the solvers are on this machine, beside what its cores can do");
+  command.add_option("CASE", all.bench.cases, "names of cases, or how they begin; none: all of them");
+  command.add_option("--points", all.bench.points, "of the bodies: numbers with commas between")
+      ->delimiter(',')
+      ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{20'000'000}))
+      ->capture_default_str();
+  command.add_option("--threads", all.bench.threads, "of a step: numbers with commas between; 0: all cores")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--level", all.bench.kernel_level,
+                     "x86-64-v2, x86-64-v3 or x86-64-v4; none: the best here");
+  command.add_option("--seconds", all.bench.seconds, "of stepping, for each row")
+      ->check(CLI::Range(0.01, 600.0))
+      ->capture_default_str();
+  command.add_flag("--json", all.bench.json, "the table as JSON");
+  command.callback([&all] { all.exit_code = bench_command(all.bench); });
+}
+
 void add_rest(CLI::App& program, AllOptions& all) {
   CLI::App& version = *program.add_subcommand("version", "Print the version");
   version.add_flag("--json", all.version_json, "as JSON");
@@ -239,6 +261,7 @@ int parse_and_run(int argc, char** argv) {
   add_submit(program, all);
   add_rheometer(program, all);
   add_verify(program, all);
+  add_bench(program, all);
   add_rest(program, all);
   try {
     program.parse(argc, argv);

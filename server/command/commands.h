@@ -116,6 +116,16 @@ struct VerifyOptions {
 /// 0 if all cases pass, else 1.
 int verify_command(const VerifyOptions& options);
 
+struct BenchOptions {
+  std::vector<std::string> cases;  ///< names, or how they begin; none: all
+  std::vector<std::uint64_t> points = {60'000, 500'000, 2'000'000};
+  std::vector<int> threads = {1, 0};  ///< 0: all cores
+  std::string kernel_level;           ///< "": the machine's best
+  double seconds = 2;                 ///< of stepping, for each row
+  bool json = false;
+};
+int bench_command(const BenchOptions& options);
+
 int version_command(bool json);
 int schema_command();
 int reference_command();

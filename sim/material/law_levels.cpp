@@ -12,28 +12,12 @@ const LawPointTable<double>& double_law_kernels_v4();
 
 template <>
 const LawPointTable<float>& law_point_kernels<float>(KernelLevel level) {
-  switch (level) {
-    case KernelLevel::kV4:
-      return float_law_kernels_v4();
-    case KernelLevel::kV3:
-      return float_law_kernels_v3();
-    case KernelLevel::kV2:
-      break;
-  }
-  return float_law_kernels_v2();
+  return at_level(level, float_law_kernels_v2, float_law_kernels_v3, float_law_kernels_v4)();
 }
 
 template <>
 const LawPointTable<double>& law_point_kernels<double>(KernelLevel level) {
-  switch (level) {
-    case KernelLevel::kV4:
-      return double_law_kernels_v4();
-    case KernelLevel::kV3:
-      return double_law_kernels_v3();
-    case KernelLevel::kV2:
-      break;
-  }
-  return double_law_kernels_v2();
+  return at_level(level, double_law_kernels_v2, double_law_kernels_v3, double_law_kernels_v4)();
 }
 
 }  // namespace lather

@@ -12,28 +12,12 @@ const KernelTable<double>& double_kernels_v4();
 
 template <>
 const KernelTable<float>& kernel_table<float>(KernelLevel level) {
-  switch (level) {
-    case KernelLevel::kV4:
-      return float_kernels_v4();
-    case KernelLevel::kV3:
-      return float_kernels_v3();
-    case KernelLevel::kV2:
-      break;
-  }
-  return float_kernels_v2();
+  return at_level(level, float_kernels_v2, float_kernels_v3, float_kernels_v4)();
 }
 
 template <>
 const KernelTable<double>& kernel_table<double>(KernelLevel level) {
-  switch (level) {
-    case KernelLevel::kV4:
-      return double_kernels_v4();
-    case KernelLevel::kV3:
-      return double_kernels_v3();
-    case KernelLevel::kV2:
-      break;
-  }
-  return double_kernels_v2();
+  return at_level(level, double_kernels_v2, double_kernels_v3, double_kernels_v4)();
 }
 
 }  // namespace lather::mpm

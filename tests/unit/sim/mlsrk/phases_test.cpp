@@ -34,7 +34,7 @@ std::string three_blocks(int dimension) {
       {"name": "stone", "material": "stone",
        "shape": {"type": "box", "size": [0.3, 0.1, 0.2], "translate": [0, 0.22, 0.01]}}],
     "numerics": {"precision": "double"}})",
-                       dimension);
+                        dimension);
 }
 
 const PhaseMeasure& last(const Report& r) {

@@ -1,0 +1,23 @@
+#include "sim/study/bench/peak_kernels.h"
+
+namespace lather::study {
+
+// One object file each, made from peak_kernels.cpp.
+const PeakKernels<float>& float_peak_kernels_v2();
+const PeakKernels<float>& float_peak_kernels_v3();
+const PeakKernels<float>& float_peak_kernels_v4();
+const PeakKernels<double>& double_peak_kernels_v2();
+const PeakKernels<double>& double_peak_kernels_v3();
+const PeakKernels<double>& double_peak_kernels_v4();
+
+template <>
+const PeakKernels<float>& peak_kernels<float>(KernelLevel level) {
+  return at_level(level, float_peak_kernels_v2, float_peak_kernels_v3, float_peak_kernels_v4)();
+}
+
+template <>
+const PeakKernels<double>& peak_kernels<double>(KernelLevel level) {
+  return at_level(level, double_peak_kernels_v2, double_peak_kernels_v3, double_peak_kernels_v4)();
+}
+
+}  // namespace lather::study
