@@ -60,10 +60,10 @@ class ParticleSet {
   [[nodiscard]] std::size_t bytes() const { return lines_.size() * sizeof(Line); }
 
   [[nodiscard]] std::byte* tile(std::size_t t) {
-    return lines_.data()->bytes + t * static_cast<std::size_t>(layout_.stride);
+    return reinterpret_cast<std::byte*>(lines_.data()) + t * static_cast<std::size_t>(layout_.stride);
   }
   [[nodiscard]] const std::byte* tile(std::size_t t) const {
-    return lines_.data()->bytes + t * static_cast<std::size_t>(layout_.stride);
+    return reinterpret_cast<const std::byte*>(lines_.data()) + t * static_cast<std::size_t>(layout_.stride);
   }
 
   /// Component `c` of `field` in tile `t`: 16 values.
