@@ -13,8 +13,8 @@ namespace lather::mlsrk {
 /// there is just full. Were they nearer (or were it the spline's integral), points on a wall would be
 /// crowded; they push away those behind them, and a column of water climbs its wall in a jet.
 ///
-/// Several surfaces share by products, as tensor-product splines do; in a corner a radial
-/// kernel's share comes out some tenths of a per cent too large.
+/// Several surfaces share by products, as tensor-product splines do; in a corner a radial kernel's
+/// share comes out some tenths of a per cent too large.
 class LayersBehind {
  public:
   /// `spacing`: of the layers and in them, over the kernel's scale a.

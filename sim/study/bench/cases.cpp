@@ -47,14 +47,11 @@ Scene foam_scene(Kernel kernel = Kernel::kCubic, Transfer transfer = Transfer::k
   return scene;
 }
 
-Scene particle_scene(int dimension, const Law& law, KernelShape shape, double support) {
-  Scene scene;
-  scene.solver = Solver::kMlsrk;
+Scene jittered_particles(int dimension, const Law& law, KernelShape shape, double support) {
+  Scene scene = particle_scene("bench", kSpacing, law);
   scene.dimension = dimension;
-  scene.spacing = kSpacing;
-  scene.points_per_cell = 1;
   scene.jitter = 0.5;
-  scene.materials.push_back(material_of(law));
+  scene.numerics.precision = Precision::kFloat;
   scene.numerics.mlsrk.kernel_shape = shape;
   scene.numerics.mlsrk.support_radius = support;
   return scene;
@@ -107,12 +104,12 @@ std::vector<BenchCase> grid_cases() {
 
 std::vector<BenchCase> particle_cases() {
   std::vector<BenchCase> cases;
-  const auto of = [](const Law& law) { return particle_scene(3, law, KernelShape::kTensor, 3); };
+  const auto of = [](const Law& law) { return jittered_particles(3, law, KernelShape::kTensor, 3); };
   for (const auto& [text, support] : {std::pair{"3", 3.0}, {"2.5", 2.5}, {"2", 2.0}})
     for (const auto& [shape_name, shape] :
          {std::pair{"tensor-", KernelShape::kTensor}, {"radial-", KernelShape::kRadial}})
       cases.push_back(block(std::string("mlsrk/") + shape_name + text + "/neo-hookean/float",
-                            particle_scene(3, kJelly, shape, support)));
+                            jittered_particles(3, kJelly, shape, support)));
   DruckerPragerParameters sand;
   sand.elastic = kJelly.elastic;
   sand.friction_angle_deg = 30;
@@ -128,7 +125,7 @@ std::vector<BenchCase> particle_cases() {
   precise.numerics.precision = Precision::kDouble;
   cases.push_back(block("mlsrk/tensor-3/neo-hookean/double", precise));
   cases.push_back(
-      block("mlsrk/tensor-3/neo-hookean/float/2d", particle_scene(2, kJelly, KernelShape::kTensor, 3)));
+      block("mlsrk/tensor-3/neo-hookean/float/2d", jittered_particles(2, kJelly, KernelShape::kTensor, 3)));
   return cases;
 }
 

@@ -35,10 +35,7 @@ template <class Real>
 double multiply_add_rate(KernelLevel level) {
   const PeakKernels<Real>& kernels = peak_kernels<Real>(level);
   return best_rate(kernels.operations,
-                   [&](std::int64_t repeats) {
-                     return kernels.multiply_add(1000 * repeats, Real(0.5), Real(1)) / 1000;
-                   }) *
-         1000;
+                   [&](std::int64_t repeats) { return kernels.multiply_add(repeats, Real(0.5), Real(1)); });
 }
 
 double read_rate(KernelLevel level, std::size_t bytes) {
