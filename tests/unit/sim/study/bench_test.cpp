@@ -62,9 +62,15 @@ TEST(Bench, TheCasesOfAStageRunIt) {
   EXPECT_FALSE(runs("mlsrk/tensor-3/neo-hookean/float", "phases"));
 }
 
+// Each round has as many resamplings as any other: one in 50 steps.
+TEST(Bench, ARoundOfTheCaseThatResamplesIsOneInterval) {
+  EXPECT_EQ(quick_run(case_named("mpm/cubic/flip/resampling/float")).steps, 5U * 50U);
+}
+
 TEST(Bench, TheFoamOfTheCasesYieldsEverywhere) {
-  const auto simulation =
-      Simulation::create(make_plan(case_named("mpm/cubic/flip/herschel-bulkley/float").scene(1000)), 1);
+  const Scene scene = case_named("mpm/cubic/flip/herschel-bulkley/float").scene(1000);
+  const double yield_stress = scene.materials.front().herschel_bulkley().yield_stress;
+  const auto simulation = Simulation::create(make_plan(scene), 1);
   int left = 10;
   simulation->step_to_frame(1, [&](const Progress&) { return --left > 0; });
   int points = 0;
@@ -75,7 +81,7 @@ TEST(Bench, TheFoamOfTheCasesYieldsEverywhere) {
     const double squared = std::pow(s[0] - mean, 2) + std::pow(s[1] - mean, 2) + std::pow(s[2] - mean, 2) +
                            2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
     ++points;
-    if (squared > 1e-6) ++yielding;  // sqrt(2/3) of the yield stress, 1e-3 Pa
+    if (squared > 2.0 / 3 * yield_stress * yield_stress) ++yielding;
   });
   EXPECT_GT(yielding, 0.95 * points);
 }
