@@ -222,6 +222,29 @@ struct ScalarOf<Lane<Real>> {
   using type = Real;
 };
 
+/// How many values a T holds.
+template <class T>
+inline constexpr int kWidth = 1;
+template <class Real>
+inline constexpr int kWidth<Lane<Real>> = kLanes;
+
+/// kWidth<T> values from `from` on.
+template <class T>
+inline T load(const typename ScalarOf<T>::type* from) {
+  if constexpr (kWidth<T> == 1)
+    return *from;
+  else
+    return T::load(from);
+}
+
+template <class T>
+inline void store(const T& value, typename ScalarOf<T>::type* to) {
+  if constexpr (kWidth<T> == 1)
+    *to = value;
+  else
+    value.store(to);
+}
+
 // ---- Four grid nodes of four components (mass and momentum, say) as one lane ----
 
 /// Four reals: the weights of a row of four nodes, or the components of one node.

@@ -73,16 +73,20 @@ void Cloud<Real>::build(const std::vector<ParticleSet<Real>>& sets, const CellBo
   sources_.resize(slots(), {0, 0});
   extents_.resize(tiles_.size());
   place_.assign(4 * slots(), Real(0));
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (i / kTile % 4 < static_cast<std::size_t>(dimension_)) place_[i] = static_cast<Real>(kNowhere);
   find_neighbours(bounds);
 }
 
 template <class Real>
 void Cloud<Real>::find_neighbours(const CellBounds& bounds) {
   neighbours_.clear();
+  most_near_ = 0;
   const auto width = static_cast<Real>(kBlockCells * spacing_ / scale_);
   const int across = dimension_ == 3 ? reach_ : 0;
   for (Block& block : blocks_) {
     block.first_neighbour = static_cast<std::int32_t>(neighbours_.size());
+    std::size_t near = 0;
     for (int dx = -reach_; dx <= reach_; ++dx)
       for (int dy = -reach_; dy <= reach_; ++dy)
         for (int dz = -across; dz <= across; ++dz) {
@@ -97,11 +101,14 @@ void Cloud<Real>::find_neighbours(const CellBounds& bounds) {
               std::lower_bound(blocks_.begin(), blocks_.end(), key,
                                [](const Block& b, std::uint64_t k) { return block_key(b.at) < k; });
           if (found == blocks_.end() || found->at != at) continue;
-          neighbours_.push_back({static_cast<std::int32_t>(found - blocks_.begin()),
+          near += static_cast<std::size_t>(found->tiles) * kTile;
+          neighbours_.push_back({found->first_tile,
+                                 found->tiles,
                                  {static_cast<Real>(dx) * width, static_cast<Real>(dy) * width,
                                   static_cast<Real>(dz) * width}});
         }
     block.neighbours = static_cast<std::int32_t>(neighbours_.size()) - block.first_neighbour;
+    most_near_ = std::max(most_near_, near);
   }
 }
 
@@ -113,7 +120,7 @@ void Cloud<Real>::refresh(const std::vector<ParticleSet<Real>>& sets, int thread
   parallel_for(threads, static_cast<std::int64_t>(tiles_.size()), 64, [&](std::int64_t index) {
     const auto t = static_cast<std::size_t>(index);
     const BlockCoord& block = blocks_[static_cast<std::size_t>(tiles_[t].block)].at;
-    Extent& extent = extents_[t];
+    Extent<Real>& extent = extents_[t];
     for (int a = 0; a < 3; ++a)
       extent.low[a] = std::numeric_limits<Real>::max(), extent.high[a] = std::numeric_limits<Real>::lowest();
     for (int i = 0; i < tiles_[t].count; ++i) {
@@ -128,7 +135,7 @@ void Cloud<Real>::refresh(const std::vector<ParticleSet<Real>>& sets, int thread
         const Real fraction =
             static_cast<Real>(set.template values<Word>(tile, Field::kFraction, a)[lane]) * kQuantum;
         const Real x = (static_cast<Real>(cell) + fraction) * cell_width;
-        place_[4 * slot + static_cast<std::size_t>(a)] = x;
+        place_[at(static_cast<std::uint32_t>(slot), a)] = x;
         extent.low[a] = std::min(extent.low[a], x);
         extent.high[a] = std::max(extent.high[a], x);
       }
@@ -142,7 +149,7 @@ Vec3 Cloud<Real>::position(std::uint32_t slot) const {
   Vec3 x = Vec3::Zero();
   for (int a = 0; a < dimension_; ++a)
     x[a] = origin_[a] + kBlockCells * block[static_cast<std::size_t>(a)] * spacing_ +
-           static_cast<double>(place_[std::size_t{slot} * 4 + static_cast<std::size_t>(a)]) * scale_;
+           static_cast<double>(place_[at(slot, a)]) * scale_;
   return x;
 }
 
@@ -159,51 +166,20 @@ Box3 Cloud<Real>::box(std::size_t tile) const {
 }
 
 template <class Real>
-void Cloud<Real>::load_targets(std::size_t tile, Real* place) const {
-  const Real* rows = place_.data() + 4 * kTile * tile;
-  for (int i = 0; i < kTile; ++i) {
-    const bool there = i < tiles_[tile].count;
-    const Real* row = rows + (there ? 4 * i : 0);
-    for (int a = 0; a < 3; ++a) place[a * kTile + i] = row[a];
-    place[3 * kTile + i] = there ? row[3] : Real(0);
-  }
-}
-
-template <class Real>
-Candidates<Real> Cloud<Real>::candidates(std::size_t tile, Scratch& scratch) const {
-  constexpr Real kSupport = 2;  // of the cubic spline
-  scratch.place.clear();
-  scratch.slot.clear();
+Surroundings<Real> Cloud<Real>::around(std::size_t tile, Scratch& scratch) const {
+  const std::size_t reals = scratch_reals(most_near_);
+  const std::size_t slots = scratch_stride(most_near_);
+  if (scratch.reals.size() < reals) scratch.reals.resize(reals);
+  if (scratch.slots.size() < slots) scratch.slots.resize(slots);
   const Block& own = blocks_[static_cast<std::size_t>(tiles_[tile].block)];
-  Extent within = extents_[tile];
-  for (int a = 0; a < dimension_; ++a) within.low[a] -= kSupport, within.high[a] += kSupport;
-  for (std::int32_t n = own.first_neighbour; n < own.first_neighbour + own.neighbours; ++n) {
-    const Neighbour& near = neighbours_[static_cast<std::size_t>(n)];
-    const Block& block = blocks_[static_cast<std::size_t>(near.block)];
-    for (std::int32_t t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
-      const Extent& extent = extents_[static_cast<std::size_t>(t)];
-      bool apart = false;
-      for (int a = 0; a < dimension_; ++a)
-        apart = apart || extent.low[a] + near.shift[a] > within.high[a] ||
-                extent.high[a] + near.shift[a] < within.low[a];
-      if (apart) continue;
-      const auto first = static_cast<std::uint32_t>(t * kTile);
-      for (std::uint32_t slot = first;
-           slot < first + static_cast<std::uint32_t>(tiles_[static_cast<std::size_t>(t)].count); ++slot) {
-        const Real* row = place_.data() + 4 * std::size_t{slot};
-        Real moved[4] = {0, 0, 0, row[3]};
-        bool inside = true;
-        for (int a = 0; a < dimension_; ++a) {
-          moved[a] = row[a] + near.shift[a];
-          inside = inside && moved[a] >= within.low[a] && moved[a] <= within.high[a];
-        }
-        if (!inside) continue;
-        scratch.place.insert(scratch.place.end(), moved, moved + 4);
-        scratch.slot.push_back(slot);
-      }
-    }
-  }
-  return {scratch.place.data(), scratch.slot.data(), static_cast<std::int32_t>(scratch.slot.size())};
+  return {static_cast<std::uint32_t>(tile),
+          tiles_[tile].count,
+          place_.data(),
+          extents_.data(),
+          neighbours_.data() + own.first_neighbour,
+          own.neighbours,
+          scratch.reals.data(),
+          scratch.slots.data()};
 }
 
 template <class Real>
@@ -211,8 +187,8 @@ std::size_t Cloud<Real>::bytes() const {
   std::size_t mapping = 0;
   for (const auto& slots : slot_of_) mapping += slots.size() * sizeof(std::uint32_t);
   return mapping + place_.size() * sizeof(Real) + sources_.size() * sizeof(Source) +
-         tiles_.size() * (sizeof(CloudTile) + sizeof(Extent)) + blocks_.size() * sizeof(Block) +
-         neighbours_.size() * sizeof(Neighbour);
+         tiles_.size() * (sizeof(CloudTile) + sizeof(Extent<Real>)) + blocks_.size() * sizeof(Block) +
+         neighbours_.size() * sizeof(NearBlock<Real>);
 }
 
 template class Cloud<float>;

@@ -45,30 +45,23 @@ class Cloud {
     return slot_of_[set][tile * kTile + static_cast<std::size_t>(lane)];
   }
   /// The current volume of a point, m^dim.
-  void put_volume(std::uint32_t slot, Real volume) {
-    place_[std::size_t{slot} * 4 + 3] = volume * per_volume_;
-  }
+  void put_volume(std::uint32_t slot, Real volume) { place_[at(slot, 3)] = volume * per_volume_; }
 
   /// What was put there, m^dim.
-  [[nodiscard]] Real volume(std::uint32_t slot) const {
-    return place_[std::size_t{slot} * 4 + 3] / per_volume_;
-  }
+  [[nodiscard]] Real volume(std::uint32_t slot) const { return place_[at(slot, 3)] / per_volume_; }
 
   /// World position of a slot's point, m.
   [[nodiscard]] Vec3 position(std::uint32_t slot) const;
   /// Corners of the box around a tile's points, m.
   [[nodiscard]] Box3 box(std::size_t tile) const;
 
-  /// The tile's own places as [4][16], as the kernels want them; empty lanes repeat the first with volume 0.
-  void load_targets(std::size_t tile, Real* place) const;
-
-  /// Memory for the candidates of one tile; one a thread.
+  /// Memory for what is near one tile; one a thread.
   struct Scratch {
-    std::vector<Real> place;
-    std::vector<std::uint32_t> slot;
+    std::vector<Real> reals;
+    std::vector<std::uint32_t> slots;
   };
-  /// All points within reach of some point of the tile, and a few more, in a fixed order.
-  [[nodiscard]] Candidates<Real> candidates(std::size_t tile, Scratch& scratch) const;
+  /// A tile's points and who may be within reach of them, for kernels.
+  [[nodiscard]] Surroundings<Real> around(std::size_t tile, Scratch& scratch) const;
 
   [[nodiscard]] double scale() const { return scale_; }  ///< a = R/2, m
   [[nodiscard]] std::size_t bytes() const;
@@ -78,18 +71,8 @@ class Cloud {
     BlockCoord at{};
     std::int32_t first_tile = 0;
     std::int32_t tiles = 0;
-    std::int32_t first_neighbour = 0;  ///< into neighbours_
+    std::int32_t first_neighbour = 0;  ///< into neighbours_, of lengths over a
     std::int32_t neighbours = 0;
-  };
-  /// A block near another, and where it stands: lengths over a, periodic axes unwound.
-  struct Neighbour {
-    std::int32_t block;
-    Real shift[3];
-  };
-  /// Smallest and largest coordinates of a tile's points, over a, from its block's corner.
-  struct Extent {
-    Real low[3];
-    Real high[3];
   };
   /// A point's set and place in it.
   struct Source {
@@ -98,6 +81,10 @@ class Cloud {
   };
 
   void find_neighbours(const CellBounds& bounds);
+  /// Where a slot's coordinate, or with 3 its volume, is in place_.
+  [[nodiscard]] static std::size_t at(std::uint32_t slot, int row) {
+    return (std::size_t{slot / kTile} * 4 + static_cast<std::size_t>(row)) * kTile + slot % kTile;
+  }
 
   int dimension_;
   Vec3 origin_;
@@ -106,12 +93,13 @@ class Cloud {
   int reach_;        // blocks
   Real per_volume_;  // a^-dim
   std::vector<Block> blocks_;
-  std::vector<Neighbour> neighbours_;
+  std::vector<NearBlock<Real>> neighbours_;
+  std::size_t most_near_ = 0;  // slots of a block's neighbours
   std::vector<CloudTile> tiles_;
-  std::vector<Extent> extents_;
+  std::vector<Extent<Real>> extents_;
   std::vector<Source> sources_;  // one a slot
   std::vector<std::vector<std::uint32_t>> slot_of_;
-  std::vector<Real> place_;  // four a slot
+  std::vector<Real> place_;  // see Surroundings
 };
 
 }  // namespace lather::mlsrk

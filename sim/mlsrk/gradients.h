@@ -11,58 +11,51 @@ namespace lather::LATHER_LEVEL {
 /// all points fall together. Where the constant is regularised too, sum_j N_j = 1 - r_0 b_0 and not 1, and
 /// what that takes from the sums of u_j themselves is added.
 template <class T, class Real, int Dim, class B, class W>
-void gradients(const mlsrk::ShapeConstants<Real>& constants, Real inverse_scale,
-               const mlsrk::Targets<Real>& targets, const mlsrk::Candidates<Real>& near,
-               const Real* own_shape, const Real* own_velocity, const Real* velocity, Real* gradient,
-               Real* smooth) {
+[[gnu::flatten]] void gradients(const mlsrk::ShapeConstants<Real>& constants, Real inverse_scale,
+                                const mlsrk::Surroundings<Real>& around, const Real* own_shape,
+                                const Real* velocity, Real* gradient, Real* smooth) {
   constexpr int N = B::kCount;
-  constexpr int reals = N * (1 + Dim);
-  const T zero(Real(0));
-  for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    T b[N];
-    T c[Dim][N];
-    T u[Dim];
-    for (int k = 0; k < N; ++k) b[k] = Points<T>::load_row(own_shape, reals, k, lane);
-    for (int a = 0; a < Dim; ++a) {
-      for (int k = 0; k < N; ++k) c[a][k] = Points<T>::load_row(own_shape, reals, N + a * N + k, lane);
-      u[a] = Points<T>::load_row(own_velocity, mlsrk::kVelocityReals, a, lane);
-    }
-    T L[Dim][Dim];
-    T du[Dim];
-    for (int a = 0; a < Dim; ++a) {
-      du[a] = zero;
-      for (T& entry : L[a]) entry = zero;
-    }
-    for (std::int32_t j = 0; j < near.count; ++j) {
-      const Real* p = near.place + 4 * j;
-      const Real* uj = velocity + std::size_t{near.slot[j]} * mlsrk::kVelocityReals;
-      const auto e = Encounter<T, Dim, B, W>::template at<1>(target, p);
-      const T corrected = dot(b, e.h);
-      const T shape = corrected * e.phi.value * p[3];
+  constexpr int reals = ShapeRow<Real, Dim, B>::kReals;
+  const Rows<Real> near = points_near<T, Dim, W, Dim, false>(around, velocity, mlsrk::kVelocityRows);
+  Rows<Real> neighbours = list_of(near, 0, 1 + 2 * Dim);
+  const Real* own = velocity + std::size_t{mlsrk::kVelocityRows} * kLanes * around.tile;
+  Real sums[Dim * Dim + Dim][kLanes] = {};  // L a, then u^h - u
+  for (int i = 0; i < around.count; ++i) {
+    find_neighbours<T, Dim, W, Dim>(around, near, i, neighbours);
+    const ShapeRow<Real, Dim, B> shape = {own_shape + i * reals};
+    T parts[Dim * Dim + Dim];
+    for (T& part : parts) part = T(Real(0));
+    for (std::int32_t k = 0; k < neighbours.count; k += kWidth<T>) {
+      T value;
       T slope[Dim];
-      for (int a = 0; a < Dim; ++a)
-        slope[a] = (dot(c[a], e.h) * e.phi.value - corrected * e.phi.gradient[a]) * p[3];
+      shape.functions(Encounter<T, Dim, B, W>::at(neighbours, k), value, slope);
+      const T volume = load<T>(neighbours[Dim] + k);
       for (int a = 0; a < Dim; ++a) {
-        const T difference = T(uj[a]) - u[a];
-        du[a] = du[a] + shape * difference;
-        for (int d = 0; d < Dim; ++d) L[a][d] = L[a][d] + slope[d] * difference;
+        const T difference = (load<T>(neighbours[Dim + 1 + a] + k) - own[a * kLanes + i]) * volume;
+        for (int d = 0; d < Dim; ++d) parts[a * Dim + d] = parts[a * Dim + d] + slope[d] * difference;
+        parts[Dim * Dim + a] = parts[Dim * Dim + a] + value * difference;
       }
     }
-    if (const Real r = constants.constant_regularization; r != Real(0))
-      for (int a = 0; a < Dim; ++a) {
-        du[a] = du[a] - b[0] * u[a] * r;
-        for (int d = 0; d < Dim; ++d) {
-          T slope[N];
-          B::derivative(d, b, slope);
-          L[a][d] = L[a][d] - (c[d][0] + slope[0]) * u[a] * r;
-        }
-      }
+    put_sums(parts, sums, i);
+  }
+  const Real r = constants.constant_regularization;
+  for (int i = 0; r != Real(0) && i < around.count; ++i) {
+    const ShapeRow<Real, Dim, B> shape = {own_shape + i * reals};
+    Real b[N];
+    for (int k = 0; k < N; ++k) b[k] = shape.b()[k];
     for (int a = 0; a < Dim; ++a) {
-      Points<T>::store(du[a], smooth + a * kLanes, lane);
-      for (int d = 0; d < Dim; ++d)
-        Points<T>::store(L[a][d] * inverse_scale, gradient + (a * Dim + d) * kLanes, lane);
+      const Real u = own[a * kLanes + i];
+      for (int d = 0; d < Dim; ++d) {
+        Real slope[N];
+        B::derivative(d, b, slope);
+        sums[a * Dim + d][i] -= (shape.c(d)[0] + slope[0]) * u * r;
+      }
+      sums[Dim * Dim + a][i] -= b[0] * u * r;
     }
+  }
+  for (int i = 0; i < kLanes; ++i) {
+    for (int c = 0; c < Dim * Dim; ++c) gradient[c * kLanes + i] = sums[c][i] * inverse_scale;
+    for (int a = 0; a < Dim; ++a) smooth[a * kLanes + i] = sums[Dim * Dim + a][i];
   }
 }
 

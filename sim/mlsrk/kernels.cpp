@@ -16,8 +16,8 @@ namespace {
 template <class T, class Real, int Dim, int Order, class W>
 mlsrk::Kernels<Real> kernels() {
   using B = Basis<Order, Dim>;
-  return {B::kCount * (1 + Dim),        ForceRow<Dim, B>::kReals,     shape_functions<T, Real, Dim, B, W>,
-          prepare_forces<Real, Dim, B>, momentum<T, Real, Dim, B, W>, gradients<T, Real, Dim, B, W>};
+  return {ShapeRow<Real, Dim, B>::kReals, shape_functions<T, Real, Dim, B, W>, momentum<T, Real, Dim, B, W>,
+          gradients<T, Real, Dim, B, W>};
 }
 
 template <class T, class Real, int Dim, int Order, class W>

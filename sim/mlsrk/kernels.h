@@ -10,8 +10,8 @@
 /// and pointers, no Eigen type, no standard container.
 ///
 /// Points of all materials lie in a cloud (cloud.h), sorted by cell, in tiles of 16. A kernel works on one
-/// tile of points, its lanes, and meets their neighbours one after the other in a fixed order, so that
-/// nothing depends on the number of threads. Lengths are divided by the kernel's scale a, volumes by a^dim.
+/// tile of points and what is within reach of it (nearby.h), in a fixed order, so that nothing depends on the
+/// number of threads. Lengths are divided by the kernel's scale a, volumes by a^dim.
 ///
 /// "MLSRK": "A Moving Least Square Reproducing Kernel Particle Method for Unified Multiphase Continuum
 /// Simulation". Basis h of N polynomials, kernel Phi, xi = (x_j - x_i)/a:
@@ -29,22 +29,50 @@ struct ShapeConstants {
   Real smallest_pivot;           ///< a moment matrix with a smaller one takes this as its r
 };
 
-/// The 16 points of a tile: x y z over a from the tile's origin, V/a^dim; [4][16].
+/// Smallest and largest coordinates of a tile's points, from its block's corner.
 template <class Real>
-struct Targets {
-  const Real* place;
+struct Extent {
+  Real low[3];
+  Real high[3];
 };
 
-/// Points within reach of a tile, in a fixed order.
+/// A block whose points may be within reach of another's, and where it stands, periodic axes unwound.
 template <class Real>
-struct Candidates {
-  const Real* place;          ///< four reals each, as in Targets
-  const std::uint32_t* slot;  ///< where they stand in the cloud
-  std::int32_t count;
+struct NearBlock {
+  std::int32_t first_tile;
+  std::int32_t tiles;
+  Real shift[3];
 };
 
-/// Rows of four: velocity (m/s), mass (kg).
-inline constexpr int kVelocityReals = 4;
+/// Where the coordinates of empty lanes lie: out of reach of all points.
+inline constexpr float kNowhere = 1e4F;
+
+/// A tile's points, and all that may be within reach of them.
+template <class Real>
+struct Surroundings {
+  std::uint32_t tile;
+  std::int32_t count;           ///< the tile's points
+  const Real* place;            ///< of the cloud: x y z from the block's corner, V; [4][16] a tile
+  const Extent<Real>* extents;  ///< of the cloud, one a tile
+  const NearBlock<Real>* blocks;
+  std::int32_t block_count;
+  Real* scratch;         ///< scratch_reals(points of the blocks)
+  std::uint32_t* slots;  ///< likewise, one a point of the blocks and 16 more
+};
+
+/// Length of a row of scratch memory for `points`: with room for a lane that begins at the last one, and odd
+/// in cache lines, so that rows do not lie at the same places of the cache.
+constexpr std::size_t scratch_stride(std::size_t points) {
+  return (((points + 15) / 16 + 1) | 1U) * 16;
+}
+/// Coordinates, volumes and up to three other values of all points near a tile; and of each of its points'
+/// neighbours offsets, volumes and the kernel's slopes.
+constexpr std::size_t scratch_reals(std::size_t points) {
+  return (7 + 16 * 7) * scratch_stride(points);
+}
+
+/// Velocity (m/s) and mass (kg): [4][16] a tile.
+inline constexpr int kVelocityRows = 4;
 /// Rows of eight: V sigma, xx yy zz xy xz yz (Pa m^3), 0, mass (kg).
 inline constexpr int kStressReals = 8;
 
@@ -60,32 +88,26 @@ struct MomentumStep {
   bool own_mass;       ///< forces are divided by a point's own mass, not by the lumped one
 };
 
-/// Kernels by dimension, basis and shape of Phi. Rows are arrays of structs: one row a slot of the cloud.
+/// Kernels by dimension, basis and shape of Phi. Rows of so many reals: one a slot of the cloud.
 template <class Real>
 struct Kernels {
   std::int32_t shape_reals;  ///< of a shape row: b, then c of each axis
-  std::int32_t force_reals;  ///< of a force row
 
   /// [shape functions] Writes the tile's 16 shape rows, `crowding`, sum_j Phi, and `fallen`, 1 where a moment
   /// matrix had to be regularised beyond the constants; both [16].
-  void (*shape_functions)(const ShapeConstants<Real>&, const Targets<Real>&, const Candidates<Real>&,
-                          Real* shape, Real* crowding, Real* fallen);
+  void (*shape_functions)(const ShapeConstants<Real>&, const Surroundings<Real>&, Real* shape, Real* crowding,
+                          Real* fallen);
 
-  /// Writes a tile's 16 force rows from its shape and stress rows: b; sum_B V sigma_AB c_B for each term of
-  /// the basis; V sigma; mass.
-  void (*prepare_forces)(const Real* shape, const Real* stress, Real* force);
-
-  /// [momentum] Adds a step's change to the tile's 16 velocity rows [MLSRK eq. 11]; `force` are the rows of
-  /// the whole cloud. `lumped_mass`, [16], kg: sum_j N_i(x_j) m_j; where light the own one counts.
-  void (*momentum)(const MomentumStep<Real>&, const Targets<Real>&, const Candidates<Real>&,
-                   const Real* force, Real* velocity, Real* lumped_mass);
+  /// [momentum] Adds a step's change to the tile's velocities [MLSRK eq. 11]; `shape` and `stress` are the
+  /// rows of the whole cloud. `lumped_mass`, [16], kg: sum_j N_i(x_j) m_j; where light the own one counts.
+  void (*momentum)(const MomentumStep<Real>&, const Surroundings<Real>&, const Real* shape,
+                   const Real* stress, Real* velocity, Real* lumped_mass);
 
   /// [velocity gradients] `gradient`: [dim dim][16], row by row, 1/s [MLSRK eq. 18]; `smooth`: [dim][16],
-  /// u^h(x_i) - u_i, m/s [MLSRK eq. 12]; `own` are the tile's shape and velocity rows, `velocity` those of
-  /// the whole cloud.
-  void (*gradients)(const ShapeConstants<Real>&, Real inverse_scale, const Targets<Real>&,
-                    const Candidates<Real>&, const Real* own_shape, const Real* own_velocity,
-                    const Real* velocity, Real* gradient, Real* smooth);
+  /// u^h(x_i) - u_i, m/s [MLSRK eq. 12]; `own_shape` are the tile's shape rows, `velocity` is that of the
+  /// whole cloud.
+  void (*gradients)(const ShapeConstants<Real>&, Real inverse_scale, const Surroundings<Real>&,
+                    const Real* own_shape, const Real* velocity, Real* gradient, Real* smooth);
 };
 
 inline constexpr int kConcentrationSteps = 256;  ///< of a table over concentrations
@@ -109,12 +131,12 @@ struct SetTile {
   const MaterialConstants<Real>* material;
 };
 
-/// What points with a concentration show their neighbours: rows of three.
-struct PhaseRow {
+/// What points with a concentration show their neighbours: [3][16] a tile.
+struct PhaseRows {
   static constexpr int kValue = 0;     ///< c, or the potential mu_c, dimensionless
   static constexpr int kMember = 1;    ///< 1; 0 of points without a concentration
   static constexpr int kMobility = 2;  ///< what grad mu_c is multiplied with: m L~ (kg m^2/s), or V L~
-  static constexpr int kReals = 3;
+  static constexpr int kCount = 3;
 };
 
 /// What the phase kernels need of the scene.
@@ -132,18 +154,20 @@ struct PhaseKernels {
 
   /// [shape functions] `crowding`, [16], where points differ in their volumes at rest: sum_j Phi v_j, with
   /// `rest`, v_j, one a slot, over the volume at t = 0.
-  void (*crowding)(const Targets<Real>&, const Candidates<Real>&, const Real* rest, Real* crowding);
+  void (*crowding)(const Surroundings<Real>&, const Real* rest, Real* crowding);
 
-  /// `potential`, [16]: mu_c of the tile's points [MLSRK eq. 16]; `rows` hold concentrations.
-  void (*potentials)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&,
-                     const Real* own_shape, const Real* own_rows, const Real* rows, Real* potential);
+  /// `potential`, [16]: mu_c of the tile's points [MLSRK eq. 16]; `rows`, of the whole cloud, hold
+  /// concentrations.
+  void (*potentials)(const PhaseStep<Real>&, const Surroundings<Real>&, const Real* own_shape,
+                     const Real* rows, Real* potential);
   /// The tile's 16 flux rows and `own`, [16]: what the point's own flux gives back to it; `rows` hold
   /// potentials.
-  void (*fluxes)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&, const Real* own_shape,
-                 const Real* own_rows, const Real* rows, Real* flux, Real* own);
-  /// `gain`, [16]: -sum_j grad N_i(x_j) . q_j, and `volume`, [16]: sum_j N_i(x_j) V_j over a^dim.
-  void (*gains)(const PhaseStep<Real>&, const Targets<Real>&, const Candidates<Real>&, const Real* flux,
-                Real* gain, Real* volume);
+  void (*fluxes)(const PhaseStep<Real>&, const Surroundings<Real>&, const Real* own_shape, const Real* rows,
+                 Real* flux, Real* own);
+  /// `gain`, [16]: -sum_j grad N_i(x_j) . q_j, and `volume`, [16]: sum_j N_i(x_j) V_j over a^dim. `flux` are
+  /// the rows of the whole cloud.
+  void (*gains)(const PhaseStep<Real>&, const Surroundings<Real>&, const Real* flux, Real* gain,
+                Real* volume);
 };
 
 /// A law on tiles of its material's points.

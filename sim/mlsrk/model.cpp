@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mlsrk/loose_cloud.h"
 #include "sim/mlsrk/step.h"
 #include "sim/plan/law_constants.h"
 #include "sim/plan/step_bound.h"
@@ -44,19 +45,17 @@ template <class Real>
 Real full_lattice(const Scene& scene, const Kernels<Real>& kernels, const ShapeConstants<Real>& constants) {
   const double step = 2 / scene.numerics.mlsrk.support_radius;  // d/a
   constexpr int kReach = 4;                                     // the largest support radius
-  std::vector<Real> place;
   const int across = scene.dimension == 3 ? kReach : 0;
+  LooseCloud<Real> lattice;
+  lattice.add(Vec3::Zero(), 1);
   for (int x = -kReach; x <= kReach; ++x)
     for (int y = -kReach; y <= kReach; ++y)
       for (int z = -across; z <= across; ++z)
-        for (const double c : {x * step, y * step, z * step, 1.0}) place.push_back(static_cast<Real>(c));
-  const std::vector<Real> targets(4 * kTile, Real(0));
+        if (x != 0 || y != 0 || z != 0) lattice.add(Vec3(x, y, z) * step, 1);
   std::vector<Real> shape(static_cast<std::size_t>(kernels.shape_reals) * kTile);
   Real crowding[kTile];
   Real fallen[kTile];
-  kernels.shape_functions(constants, {targets.data()},
-                          {place.data(), nullptr, static_cast<std::int32_t>(place.size() / 4)}, shape.data(),
-                          crowding, fallen);
+  kernels.shape_functions(constants, lattice.around(0), shape.data(), crowding, fallen);
   return crowding[0];
 }
 

@@ -6,78 +6,45 @@
 
 namespace lather::LATHER_LEVEL {
 
-/// Where the parts of a force row lie: b, then per term of the basis a vector (sum_B V sigma_AB c_B), then
-/// V sigma as xx yy xy (2D) or xx yy zz xy xz yz, then the mass.
-template <int Dim, class B>
-struct ForceRow {
-  static constexpr int kStress = Dim == 3 ? 6 : 3;
-  static constexpr int kVectors = B::kCount;
-  static constexpr int kStressAt = kVectors + B::kCount * Dim;
-  static constexpr int kMass = kStressAt + kStress;
-  static constexpr int kReals = kMass + 1;
-
-  /// Index within V sigma of the component (a, b).
-  static constexpr int component(int a, int b) { return a == b ? a : Dim == 2 ? 2 : 2 + a + b; }
-};
-
-/// [stress], its second half: what neighbours read of a point in momentum().
-template <class Real, int Dim, class B>
-void prepare_forces(const Real* shape, const Real* stress, Real* force) {
-  using Row = ForceRow<Dim, B>;
-  constexpr int N = B::kCount;
-  for (int i = 0; i < kLanes;
-       ++i, shape += N * (1 + Dim), stress += mlsrk::kStressReals, force += Row::kReals) {
-    for (int k = 0; k < N; ++k) force[k] = shape[k];
-    Real* S = force + Row::kStressAt;
-    if constexpr (Dim == 3)
-      for (int k = 0; k < 6; ++k) S[k] = stress[k];
-    else
-      S[0] = stress[0], S[1] = stress[1], S[2] = stress[3];
-    for (int k = 0; k < N; ++k)
-      for (int a = 0; a < Dim; ++a) {
-        Real sum = 0;
-        for (int b = 0; b < Dim; ++b) sum += S[Row::component(a, b)] * shape[N + b * N + k];
-        force[Row::kVectors + k * Dim + a] = sum;
-      }
-    force[Row::kMass] = stress[7];
-  }
+/// Index within a stress row of the component (a, b).
+constexpr int stress_component(int a, int b) {
+  return a == b ? a : 2 + a + b;
 }
 
 /// [momentum] u_i += dt (f_i / m + g), with f_i = -sum_j grad N_i(x_j) . sigma_j V_j and the lumped mass
 /// m = sum_j N_i(x_j) m_j [MLSRK eq. 11]. N_i(x_j) is made with the corrections of j.
+///
+/// Of j this takes b, c and sigma, more than could be packed for each i: here the lanes are the tile's
+/// points, which meet everything near the tile.
 template <class T, class Real, int Dim, class B, class W>
-void momentum(const mlsrk::MomentumStep<Real>& step, const mlsrk::Targets<Real>& targets,
-              const mlsrk::Candidates<Real>& near, const Real* force, Real* velocity, Real* lumped_mass) {
-  using Row = ForceRow<Dim, B>;
-  const T zero(Real(0));
+[[gnu::flatten]] void momentum(const mlsrk::MomentumStep<Real>& step, const mlsrk::Surroundings<Real>& around,
+                               const Real* shape, const Real* stress, Real* velocity, Real* lumped_mass) {
+  const Rows<Real> near = points_near<T, Dim, W, 0, true>(around);
   for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    T sum[Dim];
-    for (T& s : sum) s = zero;
-    T lumped = zero;
+    const auto target = Target<T, Dim>::load(around, lane);
+    T sum[Dim];  // sum_j sigma_j V_j grad N_i(x_j), over V_i/a
+    for (T& s : sum) s = T(Real(0));
+    T lumped(Real(0));
     for (std::int32_t j = 0; j < near.count; ++j) {
-      const auto e = Encounter<T, Dim, B, W>::template at<-1>(target, near.place + 4 * j);
-      const Real* row = force + std::size_t{near.slot[j]} * Row::kReals;
-      const T corrected = dot(row, e.h);
-      for (int a = 0; a < Dim; ++a) {
-        T from_c(row[Row::kVectors + a]);
-        for (int k = 1; k < B::kCount; ++k) from_c = from_c + e.h[k] * row[Row::kVectors + k * Dim + a];
-        T from_phi = e.phi.gradient[0] * row[Row::kStressAt + Row::component(a, 0)];
-        for (int b = 1; b < Dim; ++b)
-          from_phi = from_phi + e.phi.gradient[b] * row[Row::kStressAt + Row::component(a, b)];
-        sum[a] = sum[a] + (e.phi.value * from_c - corrected * from_phi);
-      }
-      lumped = lumped + e.phi.value * corrected * row[Row::kMass];
+      const std::size_t slot = around.slots[j];
+      const ShapeRow<Real, Dim, B> at_j = {shape + slot * ShapeRow<Real, Dim, B>::kReals};
+      const Real* S = stress + slot * mlsrk::kStressReals;
+      T value;
+      T slope[Dim];
+      at_j.functions(Encounter<T, Dim, B, W>::from(near, j, target), value, slope);
+      for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) sum[a] = sum[a] + slope[b] * S[stress_component(a, b)];
+      lumped = lumped + value * S[mlsrk::kStressReals - 1];
     }
     lumped = lumped * target.volume;
-    const T own = Points<T>::load_row(velocity, mlsrk::kVelocityReals, 3, lane);
+    const T own = Points<T>::load(velocity + 3 * kLanes, lane);
     Points<T>::store(lumped, lumped_mass, lane);
     const T mass = step.own_mass ? own : select(lumped >= own * Real(mlsrk::kLightest), lumped, own);
     const T per_mass = target.volume * Real(-step.dt * step.inverse_scale) / mass;
     for (int a = 0; a < Dim; ++a) {
-      const T u = Points<T>::load_row(velocity, mlsrk::kVelocityReals, a, lane);
-      Points<T>::store_row(u + (sum[a] * per_mass + Real(step.dt * step.gravity[a])), velocity,
-                           mlsrk::kVelocityReals, a, lane);
+      Real* u = velocity + a * kLanes;
+      Points<T>::store(Points<T>::load(u, lane) + (sum[a] * per_mass + Real(step.dt * step.gravity[a])), u,
+                       lane);
     }
   }
 }

@@ -28,30 +28,6 @@ struct FluxRow {
   static constexpr int kReals = kFlux + Dim;
 };
 
-/// Shape row of a lane's point, and what its neighbours' shape functions are there.
-template <class T, int Dim, class B>
-struct OwnShape {
-  T b[B::kCount];
-  T c[Dim][B::kCount];
-
-  template <class Real>
-  static OwnShape load(const Real* shape, int lane) {
-    constexpr int N = B::kCount;
-    constexpr int reals = N * (1 + Dim);
-    OwnShape s;
-    for (int k = 0; k < N; ++k) s.b[k] = Points<T>::load_row(shape, reals, k, lane);
-    for (int a = 0; a < Dim; ++a)
-      for (int k = 0; k < N; ++k) s.c[a][k] = Points<T>::load_row(shape, reals, N + a * N + k, lane);
-    return s;
-  }
-  /// a d_A N_j over V_j.
-  template <class W>
-  void slopes(const Encounter<T, Dim, B, W>& e, T (&slope)[Dim]) const {
-    const T corrected = dot(b, e.h);
-    for (int a = 0; a < Dim; ++a) slope[a] = dot(c[a], e.h) * e.phi.value - corrected * e.phi.gradient[a];
-  }
-};
-
 /// H'(c).
 template <class T, class Real>
 inline T chemical_potential(const T& c, const mlsrk::PhaseStep<Real>& step) {
@@ -62,130 +38,123 @@ inline T chemical_potential(const T& c, const mlsrk::PhaseStep<Real>& step) {
 
 /// See PhaseKernels::crowding.
 template <class T, class Real, int Dim, class B, class W>
-void crowding(const mlsrk::Targets<Real>& targets, const mlsrk::Candidates<Real>& near, const Real* rest,
-              Real* crowding) {
-  for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    T sum(Real(0));
-    for (std::int32_t j = 0; j < near.count; ++j) {
-      const auto e = Encounter<T, Dim, B, W>::template at<1>(target, near.place + 4 * j);
-      sum = sum + e.phi.value * rest[near.slot[j]];
-    }
-    Points<T>::store(sum, crowding, lane);
+[[gnu::flatten]] void crowding(const mlsrk::Surroundings<Real>& around, const Real* rest, Real* crowding) {
+  const Rows<Real> near = points_near<T, Dim, W, 1, false>(around, rest, 1);
+  Rows<Real> neighbours = list_of(near, 0, 2 + Dim);
+  for (int i = 0; i < around.count; ++i) {
+    find_neighbours<T, Dim, W, 1>(around, near, i, neighbours);
+    T weights(Real(0));
+    for (std::int32_t k = 0; k < neighbours.count; k += kWidth<T>)
+      weights =
+          weights + Encounter<T, Dim, B, W>::at(neighbours, k).phi.value * load<T>(neighbours[Dim + 1] + k);
+    crowding[i] = total(weights);
   }
 }
 
 /// See PhaseKernels::potentials.
 template <class T, class Real, int Dim, class B, class W>
-void potentials(const mlsrk::PhaseStep<Real>& step, const mlsrk::Targets<Real>& targets,
-                const mlsrk::Candidates<Real>& near, const Real* own_shape, const Real* own_rows,
-                const Real* rows, Real* potential) {
-  using Row = mlsrk::PhaseRow;
-  const T zero(Real(0));
-  for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    const auto shape = OwnShape<T, Dim, B>::load(own_shape, lane);
-    const T c = Points<T>::load_row(own_rows, Row::kReals, Row::kValue, lane);
-    T difference = zero;  // sum Phi V (c_j - c)
-    T spread = zero;      // sum Phi V xi^2
-    T offset[Dim];        // sum Phi V xi
-    T gradient[Dim];      // a grad c
-    for (int a = 0; a < Dim; ++a) offset[a] = gradient[a] = zero;
-    for (std::int32_t j = 0; j < near.count; ++j) {
-      const Real* p = near.place + 4 * j;
-      const Real* row = rows + std::size_t{near.slot[j]} * Row::kReals;
-      const auto e = Encounter<T, Dim, B, W>::template at<1>(target, p);
-      const Real volume = p[3] * row[Row::kMember];
-      const T change = (T(row[Row::kValue]) - c) * volume;
+[[gnu::flatten]] void potentials(const mlsrk::PhaseStep<Real>& step, const mlsrk::Surroundings<Real>& around,
+                                 const Real* own_shape, const Real* rows, Real* potential) {
+  using In = mlsrk::PhaseRows;
+  const Rows<Real> near = points_near<T, Dim, W, 2, false>(around, rows, In::kCount);
+  Rows<Real> neighbours = list_of(near, 0, 3 + Dim);
+  const Real* own = rows + std::size_t{In::kCount} * kLanes * around.tile;
+  for (int i = 0; i < around.count; ++i) {
+    find_neighbours<T, Dim, W, 2>(around, near, i, neighbours);
+    const ShapeRow<Real, Dim, B> shape = {own_shape + i * ShapeRow<Real, Dim, B>::kReals};
+    const Real c = own[In::kValue * kLanes + i];
+    T differences(Real(0));  // sum Phi V (c_j - c)
+    T spreads(Real(0));      // sum Phi V xi^2
+    T offsets[Dim];          // sum Phi V xi
+    T gradients[Dim];        // a grad c
+    for (int a = 0; a < Dim; ++a) offsets[a] = gradients[a] = T(Real(0));
+    for (std::int32_t k = 0; k < neighbours.count; k += kWidth<T>) {
+      const auto e = Encounter<T, Dim, B, W>::at(neighbours, k);
+      const T volume = load<T>(neighbours[Dim] + k) * load<T>(neighbours[Dim + 1 + In::kMember] + k);
+      const T change = (load<T>(neighbours[Dim + 1 + In::kValue] + k) - c) * volume;
       const T weight = e.phi.value * volume;
+      T value;
       T slope[Dim];
-      shape.slopes(e, slope);
-      difference = difference + e.phi.value * change;
+      shape.functions(e, value, slope);
+      differences = differences + e.phi.value * change;
       for (int a = 0; a < Dim; ++a) {
-        const T xi = T(p[a]) - target.x[a];
-        offset[a] = offset[a] + weight * xi;
-        spread = spread + weight * xi * xi;
-        gradient[a] = gradient[a] + slope[a] * change;
+        const T xi = load<T>(neighbours[a] + k);
+        offsets[a] = offsets[a] + weight * xi;
+        spreads = spreads + weight * xi * xi;
+        gradients[a] = gradients[a] + slope[a] * change;
       }
     }
-    for (int a = 0; a < Dim; ++a) difference = difference - gradient[a] * offset[a];
-    const auto alone = spread <= zero;
-    const T laplacian = difference * Real(2 * Dim) / select(alone, T(Real(1)), spread);  // a^2 lap c
-    const T surface =
-        laplacian * Real(step.squared_interface_width * step.inverse_scale * step.inverse_scale);
-    Points<T>::store(chemical_potential(c, step) - select(alone, zero, surface), potential, lane);
+    Real difference = total(differences);
+    for (int a = 0; a < Dim; ++a) difference -= total(gradients[a]) * total(offsets[a]);
+    const Real spread = total(spreads);
+    const Real laplacian = spread > 0 ? difference * Real(2 * Dim) / spread : Real(0);  // a^2 lap c
+    potential[i] = chemical_potential(c, step) -
+                   laplacian * (step.squared_interface_width * step.inverse_scale * step.inverse_scale);
   }
 }
 
 /// See PhaseKernels::fluxes.
 template <class T, class Real, int Dim, class B, class W>
-void fluxes(const mlsrk::PhaseStep<Real>& step, const mlsrk::Targets<Real>& targets,
-            const mlsrk::Candidates<Real>& near, const Real* own_shape, const Real* own_rows,
-            const Real* rows, Real* flux, Real* own) {
-  using Row = mlsrk::PhaseRow;
+[[gnu::flatten]] void fluxes(const mlsrk::PhaseStep<Real>& step, const mlsrk::Surroundings<Real>& around,
+                             const Real* own_shape, const Real* rows, Real* flux, Real* own) {
+  using In = mlsrk::PhaseRows;
   using Out = FluxRow<Dim, B>;
-  constexpr int N = B::kCount;
-  const T zero(Real(0));
-  for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    const auto shape = OwnShape<T, Dim, B>::load(own_shape, lane);
-    const T mu = Points<T>::load_row(own_rows, Row::kReals, Row::kValue, lane);
-    const T mobility = Points<T>::load_row(own_rows, Row::kReals, Row::kMobility, lane);
-    T gradient[Dim];  // a grad mu
-    T leak[Dim];      // a S
-    for (int a = 0; a < Dim; ++a) gradient[a] = leak[a] = zero;
-    for (std::int32_t j = 0; j < near.count; ++j) {
-      const Real* p = near.place + 4 * j;
-      const Real* row = rows + std::size_t{near.slot[j]} * Row::kReals;
-      const auto e = Encounter<T, Dim, B, W>::template at<1>(target, p);
-      const Real volume = p[3] * row[Row::kMember];
-      const T change = T(row[Row::kValue]) - mu;
+  const Rows<Real> near = points_near<T, Dim, W, 2, false>(around, rows, In::kCount);
+  Rows<Real> neighbours = list_of(near, 0, 3 + Dim);
+  const Real* own_rows = rows + std::size_t{In::kCount} * kLanes * around.tile;
+  for (int i = 0; i < around.count; ++i, flux += Out::kReals) {
+    find_neighbours<T, Dim, W, 2>(around, near, i, neighbours);
+    const ShapeRow<Real, Dim, B> shape = {own_shape + i * ShapeRow<Real, Dim, B>::kReals};
+    const Real mu = own_rows[In::kValue * kLanes + i];
+    T gradients[Dim];  // a grad mu
+    T leaks[Dim];      // a S
+    for (int a = 0; a < Dim; ++a) gradients[a] = leaks[a] = T(Real(0));
+    for (std::int32_t k = 0; k < neighbours.count; k += kWidth<T>) {
+      const T volume = load<T>(neighbours[Dim] + k) * load<T>(neighbours[Dim + 1 + In::kMember] + k);
+      const T change = load<T>(neighbours[Dim + 1 + In::kValue] + k) - mu;
+      T value;
       T slope[Dim];
-      shape.slopes(e, slope);
+      shape.functions(Encounter<T, Dim, B, W>::at(neighbours, k), value, slope);
       for (int a = 0; a < Dim; ++a) {
         const T s = slope[a] * volume;
-        gradient[a] = gradient[a] + s * change;
-        leak[a] = leak[a] + s;
+        gradients[a] = gradients[a] + s * change;
+        leaks[a] = leaks[a] + s;
       }
     }
-    T q[Dim];
-    T back = zero;
+    const Real mobility = own_rows[In::kMobility * kLanes + i] * step.inverse_scale;
+    Real back = 0;
+    for (int k = 0; k < B::kCount; ++k) flux[k] = shape.b()[k], flux[Out::kAlong + k] = Real(0);
     for (int a = 0; a < Dim; ++a) {
-      q[a] = gradient[a] * mobility * step.inverse_scale;
-      back = back + leak[a] * q[a];
-      Points<T>::store_row(q[a], flux, Out::kReals, Out::kFlux + a, lane);
+      const Real q = total(gradients[a]) * mobility;
+      back += total(leaks[a]) * q;
+      flux[Out::kFlux + a] = q;
+      for (int k = 0; k < B::kCount; ++k) flux[Out::kAlong + k] += q * shape.c(a)[k];
     }
-    Points<T>::store(back * step.inverse_scale, own, lane);
-    for (int k = 0; k < N; ++k) {
-      T along = q[0] * shape.c[0][k];
-      for (int a = 1; a < Dim; ++a) along = along + q[a] * shape.c[a][k];
-      Points<T>::store_row(shape.b[k], flux, Out::kReals, k, lane);
-      Points<T>::store_row(along, flux, Out::kReals, Out::kAlong + k, lane);
-    }
+    own[i] = back * step.inverse_scale;
   }
 }
 
-/// See PhaseKernels::gains. N_i(x_j) is made with the corrections of j.
+/// See PhaseKernels::gains. N_i(x_j) is made with the corrections of j; lanes are the tile's points, as in
+/// momentum().
 template <class T, class Real, int Dim, class B, class W>
-void gains(const mlsrk::PhaseStep<Real>& step, const mlsrk::Targets<Real>& targets,
-           const mlsrk::Candidates<Real>& near, const Real* flux, Real* gain, Real* volume) {
+[[gnu::flatten]] void gains(const mlsrk::PhaseStep<Real>& step, const mlsrk::Surroundings<Real>& around,
+                            const Real* flux, Real* gain, Real* volume) {
   using Row = FluxRow<Dim, B>;
-  const T zero(Real(0));
+  const Rows<Real> near = points_near<T, Dim, W, 0, true>(around);
   for (int lane = 0; lane < Points<T>::kPasses; ++lane) {
-    const auto target = Target<T, Dim>::load(targets, lane);
-    T sum = zero;
-    T lumped = zero;
+    const auto target = Target<T, Dim>::load(around, lane);
+    T sum(Real(0));
+    T lumped(Real(0));
     for (std::int32_t j = 0; j < near.count; ++j) {
-      const Real* p = near.place + 4 * j;
-      const auto e = Encounter<T, Dim, B, W>::template at<-1>(target, p);
-      const Real* row = flux + std::size_t{near.slot[j]} * Row::kReals;
+      const auto e = Encounter<T, Dim, B, W>::from(near, j, target);
+      const Real* row = flux + std::size_t{around.slots[j]} * Row::kReals;
       const T corrected = dot(row, e.h);
       T from_c(row[Row::kAlong]);
       for (int k = 1; k < B::kCount; ++k) from_c = from_c + e.h[k] * row[Row::kAlong + k];
       T from_phi = e.phi.gradient[0] * row[Row::kFlux];
       for (int a = 1; a < Dim; ++a) from_phi = from_phi + e.phi.gradient[a] * row[Row::kFlux + a];
       sum = sum + (e.phi.value * from_c - corrected * from_phi);
-      lumped = lumped + e.phi.value * corrected * p[3];
+      lumped = lumped + e.phi.value * corrected * near[Dim][j];
     }
     Points<T>::store(sum * target.volume * Real(-step.inverse_scale), gain, lane);
     Points<T>::store(lumped * target.volume, volume, lane);

@@ -66,15 +66,14 @@ void Stepper<Real>::sort_when_drifted(State<Real>& state) {
     cloud_.build(state.sets, model_.bounds);
     const std::size_t slots = cloud_.slots();
     const auto dim = static_cast<std::size_t>(model_.scene.dimension);
-    velocity_.assign(slots * kVelocityReals, Real(0));
+    velocity_.assign(slots * kVelocityRows, Real(0));
     shape_.assign(slots * static_cast<std::size_t>(model_.kernels.shape_reals), Real(0));
     stress_.assign(slots * kStressReals, Real(0));
-    force_.assign(slots * static_cast<std::size_t>(model_.kernels.force_reals), Real(0));
     crowding_.assign(slots, Real(0));
     gradient_.assign(slots * dim * dim, Real(0));
     smooth_.assign(slots * dim, Real(0));
     if (model_.scene.has_phases()) {
-      phase_.assign(slots * PhaseRow::kReals, Real(0));
+      phase_.assign(slots * PhaseRows::kCount, Real(0));
       potential_.assign(slots, Real(0));
       flux_.assign(slots * static_cast<std::size_t>(model_.phases.flux_reals), Real(0));
       gain_.assign(slots, Real(0));
@@ -115,10 +114,9 @@ void Stepper<Real>::find_neighbours(State<Real>& state) {
       model_.laws[at.set].volumes(tile, volume);
       for_points(state, at, [&](int lane, std::uint32_t slot) {
         cloud_.put_volume(slot, volume[lane]);
-        Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
         for (int a = 0; a < model_.scene.dimension; ++a)
-          row[a] = state.sets[at.set].template values<Real>(at.tile, Field::kVelocity, a)[lane];
-        row[3] = tile.material->mass;
+          velocity(slot, a) = state.sets[at.set].template values<Real>(at.tile, Field::kVelocity, a)[lane];
+        velocity(slot, 3) = tile.material->mass;
       });
     });
   });
@@ -131,10 +129,8 @@ std::uint64_t Stepper<Real>::compute_shape_functions() {
     const auto t = static_cast<std::size_t>(index);
     std::uint64_t regularized = 0;
     clock_.time(Stage::kShapeFunctions, [&] {
-      Real place[4 * kTile];
       Real fallen[kTile];
-      cloud_.load_targets(t, place);
-      model_.kernels.shape_functions(model_.shape, {place}, cloud_.candidates(t, scratch().candidates),
+      model_.kernels.shape_functions(model_.shape, cloud_.around(t, scratch().nearby),
                                      shape_.data() + t * reals, crowding_.data() + t * kTile, fallen);
       for (int i = 0; i < cloud_.tiles()[t].count; ++i) regularized += fallen[i] != Real(0) ? 1 : 0;
     });
@@ -151,10 +147,9 @@ void Stepper<Real>::weigh_crowding(State<Real>& state) {
     model_.laws[at.set].swelling(set_tile(state, at), ratio);
     for_points(state, at, [&](int lane, std::uint32_t slot) { potential_[slot] = ratio[lane]; });
   });
-  on_tiles(Stage::kShapeFunctions,
-           [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-             model_.phases.crowding(targets, near, potential_.data(), crowding_.data() + t * kTile);
-           });
+  on_tiles(Stage::kShapeFunctions, [&](std::size_t t, const Surroundings<Real>& around) {
+    model_.phases.crowding(around, potential_.data(), crowding_.data() + t * kTile);
+  });
 }
 
 template <class Real>
@@ -182,21 +177,6 @@ void Stepper<Real>::compute_stress(State<Real>& state) {
   };
   state.stiffest = parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), 1.0, stress_of,
                                  [](double& most, double part) { most = std::max(most, part); });
-  prepare_forces();
-}
-
-template <class Real>
-void Stepper<Real>::prepare_forces() {
-  const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
-  const auto force_reals = static_cast<std::size_t>(model_.kernels.force_reals) * kTile;
-  parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 64, [&](std::int64_t index) {
-    const auto t = static_cast<std::size_t>(index);
-    clock_.time(Stage::kStress, [&] {
-      model_.kernels.prepare_forces(shape_.data() + t * shape_reals,
-                                    stress_.data() + t * kTile * kStressReals,
-                                    force_.data() + t * force_reals);
-    });
-  });
 }
 
 template <class Real>
@@ -234,21 +214,19 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
 template <class Real>
 double Stepper<Real>::accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch,
                                  std::uint64_t& light) {
-  Real place[4 * kTile];
   Real lumped[kTile];
-  Real before[kTile * kVelocityReals];
-  Real* rows = velocity_.data() + tile * kTile * kVelocityReals;
-  std::copy_n(rows, kTile * kVelocityReals, before);
-  cloud_.load_targets(tile, place);
-  model_.kernels.momentum(step, {place}, cloud_.candidates(tile, scratch.candidates), force_.data(), rows,
+  Real before[kTile * kVelocityRows];
+  Real* rows = velocity_.data() + tile * kTile * kVelocityRows;
+  std::copy_n(rows, kTile * kVelocityRows, before);
+  model_.kernels.momentum(step, cloud_.around(tile, scratch.nearby), shape_.data(), stress_.data(), rows,
                           lumped);
   double largest = 0;
   for (int i = 0; i < cloud_.tiles()[tile].count; ++i) {
-    light += is_light(lumped[i], rows[i * kVelocityReals + 3]) ? 1 : 0;
+    light += is_light(lumped[i], rows[3 * kTile + i]) ? 1 : 0;
     if (driven(tile * kTile + static_cast<std::size_t>(i))) continue;
     double squared = 0;
     for (int a = 0; a < 3; ++a) {
-      const auto change = static_cast<double>(rows[i * kVelocityReals + a] - before[i * kVelocityReals + a]);
+      const auto change = static_cast<double>(rows[a * kTile + i] - before[a * kTile + i]);
       squared += change * change;
     }
     largest = std::max(largest, squared);
@@ -264,24 +242,22 @@ LumpedMeasure Stepper<Real>::measure_lumped(State<Real>& state) {
   // Rows without stress: forces are not wanted, masses are what compute_stress() writes.
   std::fill(stress_.begin(), stress_.end(), Real(0));
   for (std::size_t slot = 0; slot < cloud_.slots(); ++slot)
-    stress_[slot * kStressReals + kStressReals - 1] = velocity_[slot * kVelocityReals + 3];
-  prepare_forces();
+    stress_[slot * kStressReals + kStressReals - 1] = velocity(slot, 3);
   const auto one_tile = [&](std::int64_t index) {
     const auto t = static_cast<std::size_t>(index);
-    Real place[4 * kTile];
     Real lumped[kTile];
-    Real rows[kTile * kVelocityReals];
-    std::copy_n(velocity_.data() + t * kTile * kVelocityReals, kTile * kVelocityReals, rows);
-    cloud_.load_targets(t, place);
-    model_.kernels.momentum({}, {place}, cloud_.candidates(t, scratch().candidates), force_.data(), rows,
+    Real rows[kTile * kVelocityRows];
+    std::copy_n(velocity_.data() + t * kTile * kVelocityRows, kTile * kVelocityRows, rows);
+    model_.kernels.momentum({}, cloud_.around(t, scratch().nearby), shape_.data(), stress_.data(), rows,
                             lumped);
     LumpedMeasure part;
     for (int i = 0; i < cloud_.tiles()[t].count; ++i) {
-      const Real* row = velocity_.data() + (t * kTile + static_cast<std::size_t>(i)) * kVelocityReals;
-      const auto mass = static_cast<double>(is_light(lumped[i], row[3]) ? row[3] : lumped[i]);
+      const std::size_t slot = t * kTile + static_cast<std::size_t>(i);
+      const Real own = velocity(slot, 3);
+      const auto mass = static_cast<double>(is_light(lumped[i], own) ? own : lumped[i]);
       part.mass += mass;
       for (int a = 0; a < model_.scene.dimension; ++a) {
-        const auto u = static_cast<double>(row[a]);
+        const auto u = static_cast<double>(velocity(slot, a));
         part.momentum[static_cast<std::size_t>(a)] += mass * u;
         part.kinetic_energy += 0.5 * mass * u * u;
       }
@@ -301,11 +277,10 @@ void Stepper<Real>::compute_gradients() {
   const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto dim = static_cast<std::size_t>(model_.scene.dimension);
   const auto inverse_scale = static_cast<Real>(1 / cloud_.scale());
-  on_tiles(Stage::kVelocityGradients, [&](std::size_t t, const Targets<Real>& targets,
-                                          const Candidates<Real>& near) {
-    model_.kernels.gradients(model_.shape, inverse_scale, targets, near, shape_.data() + t * shape_reals,
-                             velocity_.data() + t * kTile * kVelocityReals, velocity_.data(),
-                             gradient_.data() + t * dim * dim * kTile, smooth_.data() + t * dim * kTile);
+  on_tiles(Stage::kVelocityGradients, [&](std::size_t t, const Surroundings<Real>& around) {
+    model_.kernels.gradients(model_.shape, inverse_scale, around, shape_.data() + t * shape_reals,
+                             velocity_.data(), gradient_.data() + t * dim * dim * kTile,
+                             smooth_.data() + t * dim * kTile);
   });
 }
 
@@ -323,7 +298,7 @@ StepExtremes Stepper<Real>::update_points(State<Real>& state, double dt) {
     const SetTile<Real> tile = set_tile(state, at);
     Real gradient[9 * kTile] = {};
     Real smooth[3 * kTile] = {};
-    Real velocity[3 * kTile] = {};
+    Real moved[3 * kTile] = {};
     TileExtremes seen;
     clock_.time(Stage::kDeformation, [&] {
       for_points(state, at, [&](int lane, std::uint32_t slot) {
@@ -337,13 +312,12 @@ StepExtremes Stepper<Real>::update_points(State<Real>& state, double dt) {
         for (int a = 0; a < dim; ++a) {
           if (blended)
             smooth[a * kTile + lane] = smooth_[(t * reals + static_cast<std::size_t>(a)) * kTile + i];
-          velocity[a * kTile + lane] =
-              velocity_[std::size_t{slot} * kVelocityReals + static_cast<std::size_t>(a)];
+          moved[a * kTile + lane] = velocity(slot, a);
         }
       });
       model_.laws[at.set].deform(tile, move.dt, gradient);
     });
-    clock_.time(Stage::kPositions, [&] { seen = model_.positions(tile, move, velocity, smooth); });
+    clock_.time(Stage::kPositions, [&] { seen = model_.positions(tile, move, moved, smooth); });
     return StepExtremes{seen.largest_cells, std::sqrt(seen.speed_squared), seen.finite, seen.collapsed};
   };
   return parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), StepExtremes{}, one_tile,

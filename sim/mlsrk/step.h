@@ -82,7 +82,7 @@ class Stepper {
  private:
   /// Memory of one thread.
   struct Scratch {
-    typename Cloud<Real>::Scratch candidates;
+    typename Cloud<Real>::Scratch nearby;
     std::vector<std::uint32_t> near;
   };
   /// One of the sets' tiles.
@@ -97,7 +97,6 @@ class Stepper {
   void weigh_crowding(State<Real>& state);
   void fill_solids();
   void compute_stress(State<Real>& state);
-  void prepare_forces();
   void update_velocities(State<Real>& state, double dt);
   double accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch, std::uint64_t& light);
   void resolve_collisions(std::size_t tile, Scratch& scratch);
@@ -112,7 +111,7 @@ class Stepper {
   /// Calls work(tile) for the sets' tiles, in parallel.
   template <class Work>
   void for_set_tiles(Stage stage, const Work& work);
-  /// Calls kernel(tile, its points, those near it) for the cloud's tiles, in parallel.
+  /// Calls kernel(tile, its surroundings) for the cloud's tiles, in parallel.
   template <class Kernel>
   void on_tiles(Stage stage, const Kernel& kernel);
   /// Calls visit(lane, slot) for the points of a set's tile.
@@ -121,6 +120,14 @@ class Stepper {
   /// Does a grip prescribe the velocity of the slot's point in this step?
   [[nodiscard]] bool driven(std::size_t slot) const { return !grip_.empty() && grips_.drives(grip_[slot]); }
   void note_grips(const State<Real>& state);
+  /// Component of a slot's velocity, m/s, or, the fourth, its mass, kg.
+  [[nodiscard]] Real& velocity(std::size_t slot, int row) {
+    return velocity_[(slot / kTile * kVelocityRows + static_cast<std::size_t>(row)) * kTile + slot % kTile];
+  }
+  /// What a slot's point shows its neighbours, see PhaseRows.
+  [[nodiscard]] Real& shown(std::size_t slot, int row) {
+    return phase_[(slot / kTile * PhaseRows::kCount + static_cast<std::size_t>(row)) * kTile + slot % kTile];
+  }
   [[nodiscard]] Scratch& scratch() { return scratch_[static_cast<std::size_t>(thread_index())]; }
 
   const Model<Real>& model_;
@@ -131,11 +138,10 @@ class Stepper {
   StageClock clock_;
   std::vector<Scratch> scratch_;
   std::vector<TileOfSet> set_tiles_;
-  // Rows of the cloud's slots; see kernels.h.
+  // See kernels.h.
   std::vector<Real> velocity_;
   std::vector<Real> shape_;
   std::vector<Real> stress_;
-  std::vector<Real> force_;
   std::vector<Real> crowding_;       // one a slot
   std::vector<std::uint32_t> grip_;  // Field::kGrip, one a slot; empty without grips
   std::vector<Real> gradient_;       // [dim dim][16] a tile

@@ -6,7 +6,7 @@
 
 namespace lather::mlsrk {
 
-/// Rows of what the points show their neighbours; `value` is c, or the potential once that is known.
+/// What the points show their neighbours; the value is c, or the potential once that is known.
 template <class Real>
 void Stepper<Real>::show_concentrations(State<Real>& state) {
   const bool by_volume = model_.scene.numerics.mlsrk.phases.balance == PhaseBalance::kConcentration;
@@ -15,11 +15,10 @@ void Stepper<Real>::show_concentrations(State<Real>& state) {
     if (!phase) return;
     const double* c = state.sets[at.set].template values<double>(at.tile, Field::kConcentration);
     for_points(state, at, [&](int lane, std::uint32_t slot) {
-      Real* row = phase_.data() + std::size_t{slot} * PhaseRow::kReals;
-      row[PhaseRow::kValue] = static_cast<Real>(c[lane]);
-      row[PhaseRow::kMember] = Real(1);
+      shown(slot, PhaseRows::kValue) = static_cast<Real>(c[lane]);
+      shown(slot, PhaseRows::kMember) = Real(1);
       const Real amount = by_volume ? cloud_.volume(slot) : model_.materials[at.set].mass;
-      row[PhaseRow::kMobility] = amount * static_cast<Real>(phase->mobility);
+      shown(slot, PhaseRows::kMobility) = amount * static_cast<Real>(phase->mobility);
     });
   });
 }
@@ -33,26 +32,23 @@ void Stepper<Real>::diffuse(State<Real>& state, double dt) {
   const PhaseKernels<Real>& kernels = model_.phases;
   const auto shape_reals = static_cast<std::size_t>(model_.kernels.shape_reals) * kTile;
   const auto flux_reals = static_cast<std::size_t>(kernels.flux_reals) * kTile;
-  constexpr std::size_t kRows = PhaseRow::kReals * kTile;
   show_concentrations(state);
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.potentials(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
-                       phase_.data(), potential_.data() + t * kTile);
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Surroundings<Real>& around) {
+    kernels.potentials(step, around, shape_.data() + t * shape_reals, phase_.data(),
+                       potential_.data() + t * kTile);
   });
   for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
     if (!model_.scene.materials[at.set].phase) return;  // their rows stay 0
-    for_points(state, at, [&](int, std::uint32_t slot) {
-      phase_[std::size_t{slot} * PhaseRow::kReals + PhaseRow::kValue] = potential_[slot];
-    });
+    for_points(state, at,
+               [&](int, std::uint32_t slot) { shown(slot, PhaseRows::kValue) = potential_[slot]; });
   });
   std::vector<Real>& returned = potential_;  // no longer needed itself
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.fluxes(step, targets, near, shape_.data() + t * shape_reals, phase_.data() + t * kRows,
-                   phase_.data(), flux_.data() + t * flux_reals, returned.data() + t * kTile);
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Surroundings<Real>& around) {
+    kernels.fluxes(step, around, shape_.data() + t * shape_reals, phase_.data(),
+                   flux_.data() + t * flux_reals, returned.data() + t * kTile);
   });
-  on_tiles(Stage::kPhases, [&](std::size_t t, const Targets<Real>& targets, const Candidates<Real>& near) {
-    kernels.gains(step, targets, near, flux_.data(), gain_.data() + t * kTile,
-                  lumped_volume_.data() + t * kTile);
+  on_tiles(Stage::kPhases, [&](std::size_t t, const Surroundings<Real>& around) {
+    kernels.gains(step, around, flux_.data(), gain_.data() + t * kTile, lumped_volume_.data() + t * kTile);
   });
   for_set_tiles(Stage::kPhases, [&](const TileOfSet& at) {
     if (!model_.scene.materials[at.set].phase) return;

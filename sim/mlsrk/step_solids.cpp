@@ -50,15 +50,14 @@ void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
   const auto first = static_cast<std::uint32_t>(tile * kTile);
   for (std::uint32_t slot = first; slot < first + static_cast<std::uint32_t>(cloud_.tiles()[tile].count);
        ++slot) {
-    Real* row = velocity_.data() + std::size_t{slot} * kVelocityReals;
     Vec3 v = Vec3::Zero();
-    for (int a = 0; a < model_.scene.dimension; ++a) v[a] = static_cast<double>(row[a]);
+    for (int a = 0; a < model_.scene.dimension; ++a) v[a] = static_cast<double>(velocity(slot, a));
     const Vec3 x = cloud_.position(slot);
-    const auto mass = static_cast<double>(row[3]);
+    const auto mass = static_cast<double>(velocity(slot, 3));
     bool changed = obstacles_.resolve(scratch.near, x, v, mass, sink, stand_off);
     if (walls) changed = model_.walls.resolve(x, v, mass, sink, stand_off) || changed;
     if (!changed) continue;
-    for (int a = 0; a < model_.scene.dimension; ++a) row[a] = static_cast<Real>(v[a]);
+    for (int a = 0; a < model_.scene.dimension; ++a) velocity(slot, a) = static_cast<Real>(v[a]);
   }
 }
 
@@ -70,8 +69,7 @@ void Stepper<Real>::drive_points(std::size_t tile) {
        ++slot) {
     if (!driven(slot)) continue;
     const Vec3 v = grips_.velocity(grip_[slot], cloud_.position(static_cast<std::uint32_t>(slot)));
-    for (int a = 0; a < model_.scene.dimension; ++a)
-      velocity_[slot * kVelocityReals + static_cast<std::size_t>(a)] = static_cast<Real>(v[a]);
+    for (int a = 0; a < model_.scene.dimension; ++a) velocity(slot, a) = static_cast<Real>(v[a]);
   }
 }
 

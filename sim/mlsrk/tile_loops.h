@@ -20,11 +20,7 @@ template <class Kernel>
 void Stepper<Real>::on_tiles(Stage stage, const Kernel& kernel) {
   parallel_for(threads_, static_cast<std::int64_t>(cloud_.tiles().size()), 4, [&](std::int64_t index) {
     const auto t = static_cast<std::size_t>(index);
-    clock_.time(stage, [&] {
-      Real place[4 * kTile];
-      cloud_.load_targets(t, place);
-      kernel(t, Targets<Real>{place}, cloud_.candidates(t, scratch().candidates));
-    });
+    clock_.time(stage, [&] { kernel(t, cloud_.around(t, scratch().nearby)); });
   });
 }
 

@@ -31,6 +31,14 @@ inline void cubic_spline(const T& s, T& value, T& descent) {
 
 /// A product of splines along the axes.
 struct TensorWeight {
+  /// Is the kernel above 0 there? A mask if T are lanes.
+  template <class T, int Dim>
+  static auto reaches(const T (&xi)[Dim]) {
+    using Real = typename ScalarOf<T>::type;
+    T largest = abs(xi[0]);
+    for (int a = 1; a < Dim; ++a) largest = max(abs(xi[a]), largest);
+    return largest < T(Real(2));
+  }
   template <class T, int Dim>
   static Weight<T, Dim> at(const T (&xi)[Dim]) {
     using Real = typename ScalarOf<T>::type;
@@ -53,17 +61,28 @@ struct TensorWeight {
 /// A spline of the distance.
 struct RadialWeight {
   template <class T, int Dim>
+  static auto reaches(const T (&xi)[Dim]) {
+    using Real = typename ScalarOf<T>::type;
+    return squared_length(xi) < T(Real(4));
+  }
+  template <class T, int Dim>
   static Weight<T, Dim> at(const T (&xi)[Dim]) {
     using Real = typename ScalarOf<T>::type;
-    T squared = xi[0] * xi[0];
-    for (int a = 1; a < Dim; ++a) squared = squared + xi[a] * xi[a];
-    const T s = sqrt(squared);
+    const T s = sqrt(squared_length(xi));
     Weight<T, Dim> r;
     T descent;
     cubic_spline(s, r.value, descent);
     const T per_distance = -descent / max(s, T(std::numeric_limits<Real>::min()));  // xi is 0 where s is
     for (int a = 0; a < Dim; ++a) r.gradient[a] = per_distance * xi[a];
     return r;
+  }
+
+ private:
+  template <class T, int Dim>
+  static T squared_length(const T (&xi)[Dim]) {
+    T sum = xi[0] * xi[0];
+    for (int a = 1; a < Dim; ++a) sum = sum + xi[a] * xi[a];
+    return sum;
   }
 };
 

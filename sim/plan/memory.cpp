@@ -56,12 +56,12 @@ double mlsrk_bytes(const Plan& plan) {
   // where points have moved, lanes are empty: half as many slots again.
   const double slots = 1.5 * static_cast<double>(plan.points);
   const double terms = basis_terms(s.numerics.mlsrk.basis, s.dimension);
-  const double shape = terms * (1 + d);   // b and its gradient, once for shapes and once for forces
-  const double place = 4;                 // and volume
-  const double stress = 2 * 8;            // with mass, once for itself and once for forces
-  const double velocity = 4 + d * d + d;  // with mass, its gradient, the smoothed one
-  const double reals = place + 2 * shape + stress + velocity + 2;  // crowding and pivots beside them
-  const double indices = 8 + 4;                                    // from slots to points and back
+  const double shape = terms * (1 + d);                        // b and its gradient
+  const double place = 4;                                      // and volume
+  const double stress = 8;                                     // with mass
+  const double velocity = 4 + d * d + d;                       // with mass, its gradient, the smoothed one
+  const double reals = place + shape + stress + velocity + 2;  // crowding and pivots beside them
+  const double indices = 8 + 4;                                // from slots to points and back
   const double blocks = 40 * 32;  // a block's neighbours and extents, over its 16 … 64 points
   return 3 * particle_bytes(plan) + slots * (reals * real_bytes(s) + indices) +
          blocks * slots / std::pow(4, d) + std::min(domain_cells(s), kMostSearchedCells);

@@ -28,14 +28,18 @@ std::vector<double> basis(const Vec3& x, int dimension, int order) {
   return h;
 }
 
+/// Of a component of a point's velocity in what the kernels take.
+std::size_t velocity_at(std::size_t point, int row) {
+  return (point / kTile * mlsrk::kVelocityRows + static_cast<std::size_t>(row)) * kTile + point % kTile;
+}
+
 }  // namespace
 
 template <class Real>
 void Arrangement<Real>::add(const Vec3& x, double volume) {
   points_.push_back(x);
-  for (int a = 0; a < 3; ++a) place_.push_back(static_cast<Real>(x[a]));
-  place_.push_back(static_cast<Real>(volume));
-  slot_.push_back(static_cast<std::uint32_t>(slot_.size()));
+  volumes_.push_back(volume);
+  cloud_.add(x, volume);
 }
 
 template <class Real>
@@ -53,28 +57,16 @@ void Arrangement<Real>::fill(int n, double d, double jitter, unsigned seed) {
 }
 
 template <class Real>
-std::vector<Real> Arrangement<Real>::targets(std::size_t tile) const {
-  std::vector<Real> place(4 * kTile);
-  for (std::size_t i = 0; i < kTile; ++i) {
-    const std::size_t p = tile * kTile + i < size() ? tile * kTile + i : tile * kTile;
-    for (std::size_t c = 0; c < 4; ++c) place[c * kTile + i] = place_[4 * p + c];
-  }
-  return place;
-}
-
-template <class Real>
 void Arrangement<Real>::compute(const mlsrk::ShapeConstants<Real>& constants) {
   constants_ = constants;
-  const std::size_t slots = tiles() * kTile;
+  const std::size_t slots = cloud_.tiles() * kTile;
   shape_.assign(slots * static_cast<std::size_t>(kernels_.shape_reals), Real(0));
   crowding_.assign(slots, Real(0));
   fallen_.assign(slots, Real(0));
-  for (std::size_t t = 0; t < tiles(); ++t) {
-    const std::vector<Real> place = targets(t);
-    kernels_.shape_functions(constants, {place.data()}, all(),
+  for (std::size_t t = 0; t < cloud_.tiles(); ++t)
+    kernels_.shape_functions(constants, cloud_.around(t),
                              shape_.data() + t * kTile * static_cast<std::size_t>(kernels_.shape_reals),
                              crowding_.data() + t * kTile, fallen_.data() + t * kTile);
-  }
 }
 
 template <class Real>
@@ -102,7 +94,7 @@ typename Arrangement<Real>::Function Arrangement<Real>::shape_function(std::size
     for (std::size_t k = 0; k < h.size(); ++k) sum += static_cast<double>(w[k]) * h[k];
     return sum;
   };
-  const auto volume = static_cast<double>(place_[4 * j + 3]);
+  const double volume = volumes_[j];
   Function f{dot(row) * phi * volume, Vec3::Zero()};
   for (int a = 0; a < dimension_; ++a)
     f.gradient[a] =
@@ -112,20 +104,18 @@ typename Arrangement<Real>::Function Arrangement<Real>::shape_function(std::size
 
 template <class Real>
 void Arrangement<Real>::differentiate(const std::vector<Vec3>& u, std::vector<Mat3>& gradient,
-                                      std::vector<Vec3>& smooth) const {
-  std::vector<Real> velocity(tiles() * kTile * mlsrk::kVelocityReals, Real(0));
+                                      std::vector<Vec3>& smooth) {
+  std::vector<Real> velocity(cloud_.tiles() * kTile * mlsrk::kVelocityRows, Real(0));
   for (std::size_t i = 0; i < size(); ++i)
-    for (std::size_t a = 0; a < 3; ++a)
-      velocity[mlsrk::kVelocityReals * i + a] = static_cast<Real>(u[i][static_cast<int>(a)]);
+    for (int a = 0; a < 3; ++a) velocity[velocity_at(i, a)] = static_cast<Real>(u[i][a]);
   gradient.assign(size(), Mat3::Zero());
   smooth.assign(size(), Vec3::Zero());
   const std::size_t reals = kTile * static_cast<std::size_t>(kernels_.shape_reals);
-  for (std::size_t t = 0; t < tiles(); ++t) {
-    const std::vector<Real> place = targets(t);
+  for (std::size_t t = 0; t < cloud_.tiles(); ++t) {
     Real L[9 * kTile];
     Real du[3 * kTile];
-    kernels_.gradients(constants_, Real(1), {place.data()}, all(), shape_.data() + t * reals,
-                       velocity.data() + t * kTile * mlsrk::kVelocityReals, velocity.data(), L, du);
+    kernels_.gradients(constants_, Real(1), cloud_.around(t), shape_.data() + t * reals, velocity.data(), L,
+                       du);
     for (std::size_t i = 0; i < kTile && t * kTile + i < size(); ++i)
       for (int a = 0; a < dimension_; ++a) {
         smooth[t * kTile + i][a] = static_cast<double>(du[static_cast<std::size_t>(a) * kTile + i]);
@@ -138,35 +128,25 @@ void Arrangement<Real>::differentiate(const std::vector<Vec3>& u, std::vector<Ma
 
 template <class Real>
 std::vector<Vec3> Arrangement<Real>::accelerate(const std::vector<std::array<double, 6>>& stress,
-                                                const std::vector<double>& mass, double dt,
-                                                bool own_mass) const {
-  const std::size_t slots = tiles() * kTile;
-  const auto shape_reals = static_cast<std::size_t>(kernels_.shape_reals);
-  const auto force_reals = static_cast<std::size_t>(kernels_.force_reals);
+                                                const std::vector<double>& mass, double dt, bool own_mass) {
+  const std::size_t slots = cloud_.tiles() * kTile;
   std::vector<Real> rows(slots * mlsrk::kStressReals, Real(0));
-  std::vector<Real> velocity(slots * mlsrk::kVelocityReals, Real(0));
-  std::vector<Real> force(slots * force_reals, Real(0));
+  std::vector<Real> velocity(slots * mlsrk::kVelocityRows, Real(0));
   for (std::size_t i = 0; i < size(); ++i) {
     for (std::size_t c = 0; c < 6; ++c) rows[i * mlsrk::kStressReals + c] = static_cast<Real>(stress[i][c]);
     rows[i * mlsrk::kStressReals + 7] = static_cast<Real>(mass[i]);
-    velocity[i * mlsrk::kVelocityReals + 3] = static_cast<Real>(mass[i]);
+    velocity[velocity_at(i, 3)] = static_cast<Real>(mass[i]);
   }
-  for (std::size_t t = 0; t < tiles(); ++t)
-    kernels_.prepare_forces(shape_.data() + t * kTile * shape_reals,
-                            rows.data() + t * kTile * mlsrk::kStressReals,
-                            force.data() + t * kTile * force_reals);
   const mlsrk::MomentumStep<Real> step = {
       static_cast<Real>(dt), {Real(0), Real(0), Real(0)}, Real(1), own_mass};
-  for (std::size_t t = 0; t < tiles(); ++t) {
-    const std::vector<Real> place = targets(t);
+  for (std::size_t t = 0; t < cloud_.tiles(); ++t) {
     Real lumped[kTile];
-    kernels_.momentum(step, {place.data()}, all(), force.data(),
-                      velocity.data() + t * kTile * mlsrk::kVelocityReals, lumped);
+    kernels_.momentum(step, cloud_.around(t), shape_.data(), rows.data(),
+                      velocity.data() + t * kTile * mlsrk::kVelocityRows, lumped);
   }
   std::vector<Vec3> out(size(), Vec3::Zero());
   for (std::size_t i = 0; i < size(); ++i)
-    for (int a = 0; a < dimension_; ++a)
-      out[i][a] = static_cast<double>(velocity[i * mlsrk::kVelocityReals + static_cast<std::size_t>(a)]);
+    for (int a = 0; a < dimension_; ++a) out[i][a] = static_cast<double>(velocity[velocity_at(i, a)]);
   return out;
 }
 

@@ -6,11 +6,11 @@
 
 #include "sim/math/vec.h"
 #include "sim/mlsrk/levels.h"
+#include "sim/mlsrk/loose_cloud.h"
 
 namespace lather::testing_support {
 
-/// Points put by hand for the kernels of one level: every point is a candidate of every other. Lengths over
-/// the kernel's scale a.
+/// Points put by hand for the kernels of one level. Lengths over the kernel's scale a.
 template <class Real>
 class Arrangement {
  public:
@@ -24,6 +24,7 @@ class Arrangement {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] Vec3 x(std::size_t i) const { return points_[i]; }
 
+  /// The shape functions.
   void compute(const mlsrk::ShapeConstants<Real>& constants);
 
   /// N_j(x_i) and a grad N_j(x_i), from the rows that compute() made and the equations at the head of
@@ -39,25 +40,18 @@ class Arrangement {
   [[nodiscard]] const std::vector<Real>& shape() const { return shape_; }
 
   /// Velocity gradients (1/s, a = 1 m) and u^h - u of velocities u_i, one tile after the other.
-  void differentiate(const std::vector<Vec3>& u, std::vector<Mat3>& gradient,
-                     std::vector<Vec3>& smooth) const;
+  void differentiate(const std::vector<Vec3>& u, std::vector<Mat3>& gradient, std::vector<Vec3>& smooth);
   /// Velocities after a step of `dt` under stresses V sigma (xx yy zz xy xz yz), from rest, without gravity.
   [[nodiscard]] std::vector<Vec3> accelerate(const std::vector<std::array<double, 6>>& stress,
-                                             const std::vector<double>& mass, double dt, bool own_mass) const;
+                                             const std::vector<double>& mass, double dt, bool own_mass);
 
  private:
-  [[nodiscard]] std::size_t tiles() const { return (size() + kTile - 1) / kTile; }
-  [[nodiscard]] std::vector<Real> targets(std::size_t tile) const;
-  [[nodiscard]] mlsrk::Candidates<Real> all() const {
-    return {place_.data(), slot_.data(), static_cast<std::int32_t>(size())};
-  }
-
   int dimension_;
   const mlsrk::Kernels<Real>& kernels_;
   mlsrk::ShapeConstants<Real> constants_{};
   std::vector<Vec3> points_;
-  std::vector<Real> place_;
-  std::vector<std::uint32_t> slot_;
+  std::vector<double> volumes_;
+  mlsrk::LooseCloud<Real> cloud_;
   std::vector<Real> shape_;
   std::vector<Real> crowding_;
   std::vector<Real> fallen_;

@@ -34,7 +34,7 @@ class Exchange : public testing::TestWithParam<int> {
 };
 
 TEST_P(Exchange, AnAffineFlowHasItsGradientAndIsItsOwnSmoothVelocity) {
-  const auto points = arrangement();
+  auto points = arrangement();
   Mat3 L;
   L << 1, 2, -1, 0.5, -0.3, 0.7, 0.2, -0.9, 1.1;
   if (GetParam() == 2) L.row(2).setZero(), L.col(2).setZero();
@@ -90,7 +90,7 @@ TEST(ExchangeInFloat, ACommonVelocityHasNoGradient) {
 // sum_i grad N_i(x_j) = 0, whatever r: with their own masses the points keep sum m u.
 TEST_P(Exchange, ForcesAddUpToNothing) {
   for (const double r : {0.0, 1e-3, 1.0}) {
-    const auto points = arrangement(r);
+    auto points = arrangement(r);
     const std::vector<double> mass(points.size(), 2.0);
     const auto u = points.accelerate(random_stress(points.size()), mass, 1, true);
     Vec3 momentum = Vec3::Zero();
@@ -102,7 +102,7 @@ TEST_P(Exchange, ForcesAddUpToNothing) {
 
 // [MLSRK eq. 11] sums the same terms that shape_function() gives one by one.
 TEST_P(Exchange, ForcesAndLumpedMassesAreTheSumsOfTheEquation) {
-  const auto points = arrangement(1e-3);
+  auto points = arrangement(1e-3);
   const auto stress = random_stress(points.size());
   std::vector<double> mass(points.size());
   for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = 1 + 0.1 * static_cast<double>(i % 7);
