@@ -16,6 +16,7 @@
 #include <iterator>
 
 #include "sim/material/herschel_bulkley_constants.h"
+#include "sim/math/inverse_cube_root.h"
 #include "sim/math/tensor.h"
 
 namespace lather::LATHER_LEVEL {
@@ -41,7 +42,7 @@ template <class T>
 inline Sym3<T> renormalize(const Sym3<T>& B) {
   using Real = typename ScalarOf<T>::type;
   const T d = det_minus_one(B);
-  const T m = exp(log(d + Real(1)) * Real(-1.0 / 3.0));                // (1 + d)^(-1/3)
+  const T m = inverse_cube_root_of_one_plus(d);
   const T m_minus_one = -d / ((d + Real(1)) * (m * m + m + Real(1)));  // m^3 - 1 = -d / (1 + d)
   return add_isotropic(scale(B, m), m_minus_one);
 }
@@ -51,7 +52,8 @@ template <class T>
 inline Sym3<T> push_forward_isochoric(const Mat3<T>& A, const Sym3<T>& B, const T& d) {
   using Real = typename ScalarOf<T>::type;
   const T J_f = d + Real(1);
-  const T c = exp(log(J_f) * Real(-2.0 / 3.0));                                    // det(f)^(-2/3)
+  const T m = inverse_cube_root_of_one_plus(d);
+  const T c = m * m;                                                               // det(f)^(-2/3)
   const T c_minus_one = -d * (d + Real(2)) / (J_f * J_f * (c * c + c + Real(1)));  // c^3 - 1 = (1+d)^-2 - 1
   return add_isotropic(scale(push_forward_minus_identity(A, B), c), c_minus_one);
 }
@@ -71,10 +73,11 @@ inline HerschelBulkleyState<T> predict_elastic(const HerschelBulkleyState<T>& st
 ///
 /// eta^(1/h) spans hundreds of decades, so the paper's bisection on (16) cannot know when to stop. Here the
 /// larger of the two coefficients is scaled to 1 (x = K^-h w where K > 1), and where h > 1 the unknown is z
-/// with x = z^h; both forms read L u + Q u^q = 1 with q = max(h, 1/h) >= 1 and max(L, Q) = 1. The left side
-/// is convex, its root lies in [1/2, 1], and Newton's method from 1 comes down to it monotonically. Bisection
-/// guards against rounding. `two_mu_dt` is 2 mu~ dt in Pa s, `excess_pre` = s_pre - sqrt(2/3) sigma_Y in Pa;
-/// lanes with excess_pre <= 0 give 0.
+/// with x = z^h; both forms read L u + Q u^q = 1 with q = max(h, 1/h) >= 1 and max(L, Q) = 1. Its root lies
+/// in [1/2, 1], that of f(t) = L e^t + Q e^(q t) - 1 in [-ln 2, 0]. Derivatives of f are sums of the same two
+/// exponentials, none of which f(0) needs: Householder's method of fourth order from t = 0, with bisection to
+/// guard it, takes two steps mostly, and one pair of exponentials. `two_mu_dt` is 2 mu~ dt in Pa s,
+/// `excess_pre` = s_pre - sqrt(2/3) sigma_Y in Pa; lanes with excess_pre <= 0 give 0.
 template <class T, class Real>
 inline T plastic_excess(const T& excess_pre, const T& two_mu_dt, const HerschelBulkleyConstants<Real>& c) {
   const T zero(Real(0));
@@ -98,23 +101,31 @@ inline T plastic_excess(const T& excess_pre, const T& two_mu_dt, const HerschelB
   const T Q = thickens ? scale_x : coefficient_of_power;
   const Real q = thickens ? c.flow_index : c.inverse_flow_index;
 
-  T lower(Real(0.5));
-  T upper = one;
-  T u = one;
+  const Real close = sqrt(sqrt(c.epsilon));  // a step of this size over q leaves less than epsilon over q
+  T lower(Real(-0.7));
+  T upper = zero;
+  T t = zero;
+  T linear = L;  // L e^t
+  T power = Q;   // Q e^(q t)
   for (int iteration = 0; iteration < 24; ++iteration) {
-    const T power_below = exp(log(u) * Real(q - 1));  // u^(q-1)
-    const T residual = (L + Q * power_below) * u - Real(1);
-    const T slope = L + Q * power_below * q;
-    upper = select(residual > zero, u, upper);
-    lower = select(residual > zero, lower, u);
-    const T newton = u - residual / slope;
-    const auto inside = (newton >= lower) & (newton <= upper);
-    const T next = select(inside, newton, (lower + upper) * Real(0.5));
-    const T change = abs(next - u);
-    u = next;
-    if (!any(change > T(Real(16) * c.epsilon))) break;  // the next change would be of its square
+    const T f = (linear + power) - Real(1);
+    const T f1 = linear + power * q;
+    const T f2 = linear + power * (q * q);
+    const T f3 = linear + power * (q * q * q);
+    upper = select(f > zero, t, upper);
+    lower = select(f > zero, lower, t);
+    const T f1_squared = f1 * f1;
+    const T better = t - f * (f1_squared * Real(6) - f * f2 * Real(3)) /
+                             ((f1_squared - f * f2) * f1 * Real(6) + f * f * f3);
+    const auto inside = (better >= lower) & (better <= upper);
+    const T next = select(inside, better, (lower + upper) * Real(0.5));
+    const T change = abs(next - t);
+    t = next;
+    if (!any(change * q > T(close))) break;
+    linear = L * exp(t);
+    power = Q * exp(t * q);
   }
-  const T x = thickens ? exp(log(u) * c.flow_index) : u;
+  const T x = exp(thickens ? t * c.flow_index : t);
   return select(yields, x * scale_x * e, zero);
 }
 

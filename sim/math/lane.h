@@ -120,10 +120,11 @@ inline Lane<Real> select(const Mask<Real>& mask, const Lane<Real>& yes, const La
 }
 template <class Real>
 inline bool any(const Mask<Real>& mask) {
-  bool found = false;
-  for (int i = 0; i < Lane<Real>::kPackets; ++i)
-    for (int k = 0; k < Lane<Real>::kPacket; ++k) found |= mask.p[i][k] != 0;
-  return found;
+  using Bits = typename Eigen::internal::packet_traits<float>::type;  // as wide as a packet of Real
+  static_assert(sizeof(Bits) == sizeof(mask.p[0]));
+  auto either = mask.p[0];
+  for (int i = 1; i < Lane<Real>::kPackets; ++i) either = either | mask.p[i];
+  return Eigen::internal::predux_any(reinterpret_cast<Bits>(either));
 }
 
 #define LATHER_LANE_UNARY(name, packet_function)                                                      \
@@ -243,44 +244,6 @@ inline void store(const T& value, typename ScalarOf<T>::type* to) {
     *to = value;
   else
     value.store(to);
-}
-
-// ---- Four grid nodes of four components (mass and momentum, say) as one lane ----
-
-/// Four reals: the weights of a row of four nodes, or the components of one node.
-template <class Real>
-struct Quad {
-  Real v[4];
-};
-
-/// (q0 q1 q2 q3) four times over: one node's components at each of four nodes.
-template <class Real>
-inline Lane<Real> repeat(const Quad<Real>& q) {
-  Lane<Real> r;
-  constexpr int n = Lane<Real>::kPacket;
-  for (int i = 0; i < Lane<Real>::kPackets; ++i)
-    for (int k = 0; k < n; ++k) r.p[i][k] = q.v[(i * n + k) % 4];
-  return r;
-}
-
-/// (w0 w0 w0 w0 w1 w1 w1 w1 …): each node's weight at each of its components.
-template <class Real>
-inline Lane<Real> spread(const Quad<Real>& w) {
-  Lane<Real> r;
-  constexpr int n = Lane<Real>::kPacket;
-  for (int i = 0; i < Lane<Real>::kPackets; ++i)
-    for (int k = 0; k < n; ++k) r.p[i][k] = w.v[(i * n + k) / 4];
-  return r;
-}
-
-/// Sum over the four nodes, component by component: nodes 0 + 2, 1 + 3, then both.
-template <class Real>
-inline Quad<Real> fold(const Lane<Real>& a) {
-  Real s[kLanes];
-  a.store(s);
-  Quad<Real> r;
-  for (int k = 0; k < 4; ++k) r.v[k] = (s[k] + s[8 + k]) + (s[4 + k] + s[12 + k]);
-  return r;
 }
 
 }  // namespace lather::LATHER_LEVEL

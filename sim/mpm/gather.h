@@ -2,85 +2,35 @@
 
 // From grid to points: velocities and their gradient, deformation, plastic flow. Compiled per kernel level.
 
-#include "sim/mpm/scatter.h"
+#include "sim/mpm/read_rows.h"
+#include "sim/mpm/tear.h"
 #include "sim/particles/laws_on_tiles.h"
 
 namespace lather::LATHER_LEVEL {
 
-/// What the points of a tile read from the grid.
+/// What the points of a tile read from the grid, as quads (any, x, y, z).
 template <class Real, int Dim, bool Apic>
 struct Gathered {
-  alignas(64) Real velocity[Dim][kLanes];              ///< sum w v*, m/s: the PIC velocity
-  alignas(64) Real increment[Apic ? 1 : Dim][kLanes];  ///< sum w (v* - v), m/s
-  alignas(64) Real gradient[Dim][Dim][kLanes];         ///< [a][b]: sum v*_a d_b w, times the cell width, m/s
-  alignas(64)
-      Real moment[Apic ? Dim : 1][Dim][kLanes];  ///< [a][b]: sum w v*_a (x_i - x_p)_b, in cell widths, m/s
+  Quads<Real> velocity;                ///< sum w v*, m/s: the PIC velocity
+  Quads<Real> increment;               ///< FLIP: sum w (v* - v), m/s
+  Quads<Real> gradient[Dim];           ///< [b]: sum v* d_b w, times the cell width, m/s
+  Quads<Real> moment[Apic ? Dim : 1];  ///< [b]: sum w v* (x_i - x_p)_b, in cell widths, m/s
 };
 
-template <class Real, int Dim>
-inline void put(Real (*to)[kLanes], int k, const Quad<Real>& q) {
-  for (int a = 0; a < Dim; ++a) to[a][k] = q.v[1 + a];
-}
-template <class Real, int Dim>
-inline void put_column(Real (*to)[Dim][kLanes], int b, int k, const Quad<Real>& q) {
-  for (int a = 0; a < Dim; ++a) to[a][b][k] = q.v[1 + a];
-}
-
 template <class Real, int Dim, bool Cubic, bool Apic>
-inline void gather_point(const Stencil<Real, Dim, Cubic>& s, int k, const Real* velocity,
+inline void gather_point(const Stencil<Real, Dim, Cubic, Apic>& s, int k, const Real* velocity,
                          const Real* increment, Gathered<Real, Dim, Apic>& out) {
-  constexpr int last = Dim - 1;
-  const Lane<Real> zero(Real(0));
-  Lane<Real> v = zero;      // sum over rows of w_x w_y times the row
-  Lane<Real> dx = zero;     // … d_x w_y
-  Lane<Real> dy = zero;     // … w_x d_y
-  Lane<Real> arm_x = zero;  // … w_x rel_x w_y
-  Lane<Real> arm_y = zero;  // … w_x w_y rel_y
-  Lane<Real> dv = zero;
-  const Real* v_row = velocity + s.base[k];
-  const Real* dv_row = Apic ? nullptr : increment + s.base[k];
-  for (int i = 0; i < s.kNodes; ++i) {
-    const Real w_i = s.w[0][i][k];
-    Lane<Real> sum;
-    if constexpr (Dim == 2) {
-      sum = Lane<Real>::load(v_row + i * kRowStride);
-      if constexpr (!Apic) dv += Lane<Real>::load(dv_row + i * kRowStride) * w_i;
-    } else {
-      sum = zero;
-      Lane<Real> slope = zero;
-      Lane<Real> lever = zero;
-      Lane<Real> change = zero;
-      for (int j = 0; j < s.kNodes; ++j) {
-        const Lane<Real> row = Lane<Real>::load(v_row + i * kPlaneStride + j * kRowStride);
-        const Real w_j = s.w[1][j][k];
-        sum += row * w_j;
-        slope += row * s.d[1][j][k];
-        if constexpr (Apic)
-          lever += row * Real(w_j * s.rel[1][j][k]);
-        else
-          change += Lane<Real>::load(dv_row + i * kPlaneStride + j * kRowStride) * w_j;
-      }
-      dy += slope * w_i;
-      if constexpr (Apic)
-        arm_y += lever * w_i;
-      else
-        dv += change * w_i;
-    }
-    v += sum * w_i;
-    dx += sum * s.d[0][i][k];
-    if constexpr (Apic) arm_x += sum * Real(w_i * s.rel[0][i][k]);
-  }
-  const Lane<Real> w_row = spread(s.row_weights(k));
-  put<Real, Dim>(out.velocity, k, fold(v * w_row));
-  put_column<Real, Dim>(out.gradient, 0, k, fold(dx * w_row));
-  put_column<Real, Dim>(out.gradient, last, k, fold(v * spread(s.row_derivatives(k))));
-  if constexpr (Dim == 3) put_column<Real, Dim>(out.gradient, 1, k, fold(dy * w_row));
+  const Lane<Real> w_row = spread(s.row_w[k]);
+  const RowSums<Real, Dim, Cubic> rows(s, k, velocity);
+  const Lane<Real> v = weighted(rows.x, s.w[0], k);
+  fold(v * w_row, out.velocity[k]);
+  fold_gradient(s, k, rows, v, out.gradient);
   if constexpr (Apic) {
-    put_column<Real, Dim>(out.moment, 0, k, fold(arm_x * w_row));
-    put_column<Real, Dim>(out.moment, last, k, fold(v * spread(s.row_arms(k))));
-    if constexpr (Dim == 3) put_column<Real, Dim>(out.moment, 1, k, fold(arm_y * w_row));
+    fold(weighted(rows.x, s.arm[0], k) * w_row, out.moment[0][k]);
+    if constexpr (Dim == 3) fold(weighted(rows.y, s.arm[1], k) * w_row, out.moment[1][k]);
+    fold(v * spread(s.row_arm[k]), out.moment[Dim - 1][k]);
   } else {
-    put<Real, Dim>(out.increment, k, fold(dv * w_row));
+    fold(row_sum(s, k, increment) * w_row, out.increment[k]);
   }
 }
 
@@ -89,16 +39,19 @@ inline void gather_point(const Stencil<Real, Dim, Cubic>& s, int k, const Real* 
 template <class Real, int Dim, bool Cubic, bool Apic>
 inline void update_velocities(const Tile<Real, Dim>& tile, const Gathered<Real, Dim, Apic>& g,
                               const mpm::StepConstants<Real>& step) {
-  for (int a = 0; a < Dim; ++a) {
-    const Lane<Real> pic = Lane<Real>::load(g.velocity[a]);
-    if constexpr (Apic) {
-      tile.put(Field::kVelocity, a, pic);
-      const Real per_moment = Real(1) / (kernel_moment<Real>(Cubic) * step.cell);
-      for (int b = 0; b < Dim; ++b)
-        tile.put(Field::kAffine, a * Dim + b, Lane<Real>::load(g.moment[a][b]) * per_moment);
-    } else {
-      const Lane<Real> flip = tile.lane(Field::kVelocity, a) + Lane<Real>::load(g.increment[a]);
-      tile.put(Field::kVelocity, a, pic + (flip - pic) * step.flip);
+  const Vectors<Real> pic(g.velocity);
+  if constexpr (Apic) {
+    for (int a = 0; a < Dim; ++a) tile.put(Field::kVelocity, a, pic[a]);
+    const Real per_moment = Real(1) / (kernel_moment<Real>(Cubic) * step.cell);
+    for (int b = 0; b < Dim; ++b) {
+      const Vectors<Real> moment(g.moment[b]);
+      for (int a = 0; a < Dim; ++a) tile.put(Field::kAffine, a * Dim + b, moment[a] * per_moment);
+    }
+  } else {
+    const Vectors<Real> increment(g.increment);
+    for (int a = 0; a < Dim; ++a) {
+      const Lane<Real> flip = tile.lane(Field::kVelocity, a) + increment[a];
+      tile.put(Field::kVelocity, a, pic[a] + (flip - pic[a]) * step.flip);
     }
   }
 }
@@ -109,7 +62,7 @@ template <class Real, int Dim, bool Apic>
 inline void update_deformation(const Tile<Real, Dim>& tile, const Gathered<Real, Dim, Apic>& g,
                                const mpm::MaterialConstants<Real>& material,
                                const mpm::StepConstants<Real>& step) {
-  Mat3<Lane<Real>> A = scaled_rows<Real, Dim>(g.gradient[0][0], Real(step.dt / step.cell));  // dt grad v
+  Mat3<Lane<Real>> A = scaled_columns(g.gradient, Real(step.dt / step.cell));  // dt grad v
   if (tile.has(Field::kPlasticity)) {
     limit_increment(tile, material.tearing, A);
     store_deformation(tile, deformed(load_deformation(tile), A));
@@ -124,7 +77,7 @@ void gather(const mpm::BlockPoints<Real>& points, const mpm::BlockPlace& place,
             const mpm::StepConstants<Real>& step, const Real* velocity, const Real* increment) {
   for (int first = 0; first < points.count; first += kLanes) {
     const Tile<Real, Dim> tile = tile_at<Real, Dim>(points, first);
-    const Stencil<Real, Dim, Cubic> stencil(tile, place);
+    const Stencil<Real, Dim, Cubic, Apic> stencil(tile, place);
     Gathered<Real, Dim, Apic> gathered;
     for (int k = 0; k < kLanes; ++k)  // empty lanes repeat a point's place and stay harmless
       gather_point<Real, Dim, Cubic, Apic>(stencil, k, velocity, increment, gathered);

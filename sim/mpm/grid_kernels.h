@@ -2,7 +2,10 @@
 
 // Block buffers and grid blocks: sum, copy, velocity update. Compiled per kernel level.
 
-#include "sim/math/lane.h"
+#include <cstring>
+#include <type_traits>
+
+#include "sim/math/quad.h"
 #include "sim/mpm/kernels.h"
 
 namespace lather::LATHER_LEVEL {
@@ -17,30 +20,36 @@ struct Overlap {
 /// Grid block against the buffer of the points' block at `offset` (-1, 0, 1) from it.
 constexpr Overlap overlap_from_grid(int offset) {
   using namespace mpm;
+  static_assert(kBufferBelow + kBlockWidth + kBufferBelow == kBufferWidth);
   return offset == 0  ? Overlap{0, kBufferBelow, kBlockWidth}
          : offset > 0 ? Overlap{kBlockWidth - kBufferBelow, 0, kBufferBelow}
-                      : Overlap{0, kBufferBelow + kBlockWidth, kBufferWidth - kBufferBelow - kBlockWidth};
+                      : Overlap{0, kBufferBelow + kBlockWidth, kBufferBelow};
 }
 
 /// Calls row(node_offset, buffer_offset, reals) for every row that a grid block shares with the buffer of the
-/// points' block at offset `o` from it; offsets count reals.
+/// points' block at offset `o` from it; offsets count reals, `reals` is the type of a constant.
 template <int Dim, class Row>
 inline void for_shared_rows(const int (&o)[3], const Row& row) {
   using namespace mpm;
   const Overlap x = overlap_from_grid(o[0]);
   const Overlap y = overlap_from_grid(o[1]);
   const Overlap z = overlap_from_grid(o[2]);
-  for (int i = 0; i < x.count; ++i) {
-    if constexpr (Dim == 2) {
-      row(((x.node + i) * kBlockWidth + y.node) * kQuad, ((x.buffer + i) * kBufferWidth + y.buffer) * kQuad,
-          y.count * kQuad);
-    } else {
-      for (int j = 0; j < y.count; ++j)
-        row((((x.node + i) * kBlockWidth + y.node + j) * kBlockWidth + z.node) * kQuad,
-            (((x.buffer + i) * kBufferWidth + y.buffer + j) * kBufferWidth + z.buffer) * kQuad,
-            z.count * kQuad);
+  const auto rows = [&](auto reals) {
+    for (int i = 0; i < x.count; ++i) {
+      if constexpr (Dim == 2) {
+        row(((x.node + i) * kBlockWidth + y.node) * kQuad, ((x.buffer + i) * kBufferWidth + y.buffer) * kQuad,
+            reals);
+      } else {
+        for (int j = 0; j < y.count; ++j)
+          row((((x.node + i) * kBlockWidth + y.node + j) * kBlockWidth + z.node) * kQuad,
+              (((x.buffer + i) * kBufferWidth + y.buffer + j) * kBufferWidth + z.buffer) * kQuad, reals);
+      }
     }
-  }
+  };
+  if (o[Dim - 1] == 0)
+    rows(std::integral_constant<int, kBlockWidth * kQuad>{});
+  else
+    rows(std::integral_constant<int, kBufferBelow * kQuad>{});
 }
 
 /// The offset of neighbour n of 3^Dim, last axis fastest.
@@ -61,8 +70,10 @@ void reduce(const Real* const* buffers, Real* node) {
     const Real* buffer = buffers[n];
     int o[3];
     neighbour_offset<Dim>(n, o);
-    for_shared_rows<Dim>(o, [&](int to, int from, int reals) {
-      for (int k = 0; k < reals; ++k) node[to + k] += buffer[from + k];
+    for_shared_rows<Dim>(o, [&](int to, int from, auto reals) {
+      Real sum[reals];  // apart from both, which the compiler takes to overlap
+      for (int k = 0; k < reals; ++k) sum[k] = node[to + k] + buffer[from + k];
+      for (int k = 0; k < reals; ++k) node[to + k] = sum[k];
     });
   }
 }
@@ -75,8 +86,8 @@ void collect(const Real* const* blocks, Real* buffer) {
     // Seen from the grid block at +o the buffer's own block lies at -o.
     const int back[3] = {-o[0], -o[1], -o[2]};
     const Real* block = blocks[n];
-    for_shared_rows<Dim>(back, [&](int from, int to, int reals) {
-      for (int k = 0; k < reals; ++k) buffer[to + k] = block[from + k];
+    for_shared_rows<Dim>(back, [&](int from, int to, auto reals) {
+      std::memcpy(buffer + to, block + from, sizeof(Real) * reals);
     });
   }
   for (int k = mpm::kQuad * mpm::power(mpm::kBufferWidth, Dim); k < mpm::buffer_reals(Dim); ++k)
@@ -86,21 +97,23 @@ void collect(const Real* const* blocks, Real* buffer) {
 /// v* = v + dt (f/m + g) [Foam E.3 step 5; the paper prints it without v, which its FLIP update needs].
 template <class Real, int Dim, bool Apic>
 void update_grid(const mpm::StepConstants<Real>& step, Real* node, Real* increment) {
-  for (int i = 0; i < mpm::block_nodes(Dim); ++i) {
-    Real* q = node + i * mpm::kQuad;
-    Real* dv = Apic ? nullptr : increment + i * mpm::kQuad;
-    const Real mass = q[0];
-    const bool carries = mass > mpm::kLeastMass<Real>;
-    const Real per_mass = carries ? Real(1) / mass : Real(0);
-    for (int a = 0; a < Dim; ++a) {
-      const Real gravity = carries ? step.dt * step.gravity[a] : Real(0);
-      if constexpr (Apic) {
-        q[1 + a] = q[1 + a] * per_mass + gravity;
-      } else {
-        dv[1 + a] = dv[1 + a] * (step.dt * per_mass) + gravity;
-        q[1 + a] = q[1 + a] * per_mass + dv[1 + a];
-      }
+  const Lane<Real> zero(Real(0));
+  const Real* g = step.gravity;
+  alignas(64) const Real falls[4] = {0, step.dt * g[0], step.dt * g[1], Dim == 3 ? step.dt * g[2] : Real(0)};
+  alignas(64) const Real masses[4] = {1, 0, 0, 0};
+  const auto is_mass = repeat(masses) > zero;
+  for (int k = 0; k < mpm::block_reals(Dim); k += kLanes) {
+    const Lane<Real> q = Lane<Real>::load(node + k);
+    const Lane<Real> mass = first_of_quads(q);
+    const auto carries = mass > Lane<Real>(mpm::kLeastMass<Real>);
+    const Lane<Real> per_mass = select(carries, Real(1) / mass, zero);
+    const Lane<Real> gravity = select(carries, repeat(falls), zero);
+    Lane<Real> dv = gravity;
+    if constexpr (!Apic) {
+      dv = Lane<Real>::load(increment + k) * (per_mass * step.dt) + gravity;
+      dv.store(increment + k);
     }
+    select(is_mass, q, q * per_mass + dv).store(node + k);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "sim/mpm/gather.h"
 #include "sim/mpm/grid_kernels.h"
 #include "sim/mpm/laws.h"
+#include "sim/mpm/resample/nearest.h"
 #include "sim/mpm/stiffness.h"
 #include "sim/mpm/tearing_points.h"
 
@@ -109,7 +110,8 @@ mpm::KernelTable<Real> make_table() {
         {kernels<Real, 3, true, false>(), kernels<Real, 3, true, true>()}}},
       {},
       {plastic_excess_wide<Real>, plastic_excess_scalar<Real>, law_step<Real>, law_step_wide<Real>,
-       stress<Real>, weights<Real>, tearing_kernels<Real, Real>(), tearing_kernels<Lane<Real>, Real>()}};
+       stress<Real>, weights<Real>, tearing_kernels<Real, Real>(), tearing_kernels<Lane<Real>, Real>()},
+      nearest};
   fill_laws<Real, 2>(table.laws[0]);
   fill_laws<Real, 3>(table.laws[1]);
   return table;

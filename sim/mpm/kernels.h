@@ -198,12 +198,26 @@ struct PointKernels {
   TearingKernels<Real> tearing_wide;  ///< the point in one of 16 lanes, the others at rest
 };
 
+/// Points by rows, each a run of them: (x, y, z) one after the other.
+struct PointRows {
+  const float* x;
+  const std::uint32_t (*row)[2];  ///< first point, and the one after the last
+  int rows;
+};
+
+/// Lowers `squared[k]`, k < count, to the squared distance of place k from the nearest of the points, 16
+/// places at a time: no further than to below `enough`, where the rest of the points is not looked at.
+/// `place` is [3][count]; count is a multiple of 16.
+using NearestKernel = void (*)(const float* place, int count, const PointRows& points, float enough,
+                               float* squared);
+
 /// Kernels of one level; picked by dimension (2, 3), kernel order and transfer.
 template <class Real>
 struct KernelTable {
   Kernels<Real> step[2][2][2];      ///< [dimension - 2][cubic][apic]
   LawKernels<Real> laws[2][kLaws];  ///< [dimension - 2][index of the law]
   PointKernels<Real> point;
+  NearestKernel nearest;
 };
 
 }  // namespace lather::mpm

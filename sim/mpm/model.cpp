@@ -26,6 +26,7 @@ resample::Resampler make_resampler(const Plan& plan, const CellBounds& bounds) {
     double derivative[4];
     return weights(cubic, fraction, weight, derivative);
   };
+  r.nearest = kernel_table<float>(plan.choices.kernel_level).nearest;
   for (const Material& m : plan.scene.materials) {
     r.mass.push_back(m.density() * plan.scene.point_volume());
     r.tears.tear_threshold.push_back(m.tearing.tear_threshold);

@@ -19,6 +19,13 @@ bool dropped(std::uint64_t key) {
   return key >= kLeft;
 }
 
+/// Copies one lane of `rows` rows of values of kBytes each.
+template <int kBytes>
+void copy_lane(std::byte* to, int to_lane, const std::byte* from, int from_lane, int rows) {
+  for (int r = 0; r < rows; ++r)
+    std::memcpy(to + (r * kTile + to_lane) * kBytes, from + (r * kTile + from_lane) * kBytes, kBytes);
+}
+
 std::int32_t floor_mod(std::int32_t a, std::int32_t n) {
   return ((a % n) + n) % n;
 }
@@ -64,12 +71,18 @@ void ParticleSet<Real>::copy_point(std::byte* to_tile, int to_lane, const std::b
                                    int from_lane) const {
   for (int f = 0; f < kFieldCount; ++f) {
     if (layout_.offset[f] < 0) continue;
-    const auto bytes = static_cast<std::size_t>(layout_.component_bytes[f]);
-    for (int c = 0; c < layout_.components[f]; ++c) {
-      const std::size_t row =
-          static_cast<std::size_t>(layout_.offset[f]) + static_cast<std::size_t>(c) * bytes * kTile;
-      std::memcpy(to_tile + row + static_cast<std::size_t>(to_lane) * bytes,
-                  from_tile + row + static_cast<std::size_t>(from_lane) * bytes, bytes);
+    std::byte* to = to_tile + layout_.offset[f];
+    const std::byte* from = from_tile + layout_.offset[f];
+    const int rows = layout_.components[f];
+    switch (layout_.component_bytes[f]) {
+      case 2:
+        copy_lane<2>(to, to_lane, from, from_lane, rows);
+        break;
+      case 4:
+        copy_lane<4>(to, to_lane, from, from_lane, rows);
+        break;
+      default:
+        copy_lane<8>(to, to_lane, from, from_lane, rows);
     }
   }
 }

@@ -38,8 +38,9 @@ Outcome avoid_void(std::vector<ParticleSet<Real>>& sets, const BlockGrid<Real>& 
                    const Resampler& resampler, const DartKey& key, std::uint32_t& next_id) {
   const int threads = resampler.threads;
   const PointBins bins(sets, grid, resampler.bounds, resampler.lattice, threads);
-  const SignedDistance distance(bins, threads);
-  const std::vector<Sample> samples = throw_darts(bins, distance, key, resampler.allowed, threads);
+  const SignedDistance distance(bins, resampler.nearest, threads);
+  const std::vector<Sample> samples =
+      throw_darts(bins, distance, resampler.nearest, key, resampler.allowed, threads);
   const std::vector<NewPoint> points = compute_new_conserved_values(samples, bins, sets, threads);
   std::vector<double> values =
       compute_new_field_values(points, bins, sets, resampler.weights, resampler.velocity, threads);

@@ -11,6 +11,7 @@ struct Resampler {
   CellBounds bounds;
   std::vector<double> mass;  ///< of a whole point of each set, kg
   KernelWeights weights;
+  NearestKernel nearest = nullptr;
   NewVelocity velocity = NewVelocity::kConserving;
   TearTest tears;
   std::function<bool(const Vec3&)> allowed;  ///< may a new point stand at x (m)? not inside obstacles

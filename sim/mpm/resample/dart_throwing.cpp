@@ -1,6 +1,8 @@
 #include "sim/mpm/resample/dart_throwing.h"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <unordered_map>
 
 #include "sim/math/counter_rng.h"
@@ -26,10 +28,11 @@ float squared_distance(const Local& a, const Local& b) {
 /// The darts of one block. Scratch memory of one thread.
 class BlockDarts {
  public:
-  BlockDarts(const PointBins& bins, const SignedDistance& distance, const DartKey& key)
+  BlockDarts(const PointBins& bins, const SignedDistance& distance, NearestKernel nearest, const DartKey& key)
       : bins_(bins),
         lattice_(bins.lattice()),
         distance_(distance),
+        nearest_(nearest),
         key_(key),
         masks_(CoverMasks::of(lattice_.dimension)),
         radius_(cover_radius(lattice_.dimension)),
@@ -78,32 +81,57 @@ class BlockDarts {
     return in_plane(0) + f[2] * (in_plane(4) - in_plane(0));
   }
 
+  /// The darts into parts that are not covered, 16 at a time.
   void throw_into_cell(const std::array<int, 3>& cell, std::uint64_t covered, std::uint64_t seed,
                        std::vector<Dart>& found) {
+    std::uint32_t rows[LocalPoints::kRows][2];
+    const PointRows around = points_.around(cell[0], cell[1], cell[2], rows);
+    int count = 0;
+    const auto throw_into = [&](std::size_t t) {
+      aim(t, random_bits(seed, t), cell, count);
+      if (++count == kTile) land(count, around, cell, found), count = 0;
+    };
     const auto& tree = masks_.tree();
-    for (std::size_t t = 0; t < tree.size(); ++t) {
-      const TreeCell& part = tree[t];
-      if ((part.mask & ~covered) == 0) continue;
-      const std::uint64_t bits = random_bits(seed, t);
+    const std::size_t finest = tree.size() - 64;
+    for (std::size_t t = 0; t < finest; ++t)
+      if ((tree[t].mask & ~covered) != 0) throw_into(t);
+    for (std::uint64_t open = ~covered; open != 0; open &= open - 1)
+      throw_into(finest + static_cast<std::size_t>(std::countr_zero(open)));
+    land(count, around, cell, found);
+  }
+
+  /// Throws dart k into part t of the tree.
+  void aim(std::size_t t, std::uint64_t bits, const std::array<int, 3>& cell, int k) {
+    const TreeCell& part = masks_.tree()[t];
+    width_[k] = part.width;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(lattice_.dimension); ++a) {
+      constexpr std::uint32_t kDraw = (1U << 21U) - 1;  // three numbers out of 64 bits
+      const auto draw = static_cast<std::int32_t>(bits >> (21 * a) & kDraw);
+      const float f = (static_cast<float>(draw) + 0.5F) / static_cast<float>(kDraw + 1);
+      place_[a][k] = static_cast<float>(cell[a]) + (part.low[a] + part.width * f);
+    }
+  }
+
+  /// Of the first `count` darts, those that no point covers and that are in the interior.
+  void land(int count, const PointRows& around, const std::array<int, 3>& cell, std::vector<Dart>& found) {
+    if (count == 0) return;
+    for (auto& axis : place_) std::fill(axis + count, axis + kTile, axis[0]);
+    float squared[kTile];
+    std::fill_n(squared, kTile, std::numeric_limits<float>::infinity());
+    nearest_(place_[0], kTile, around, radius_ * radius_, squared);
+    for (int k = 0; k < count; ++k) {
+      if (squared[k] <= radius_ * radius_) continue;
+      const Local x = {place_[0][k], place_[1][k], place_[2][k]};
       Local f{};
-      Local x{};
-      for (std::size_t a = 0; a < static_cast<std::size_t>(lattice_.dimension); ++a) {
-        constexpr std::uint64_t kDraw = (1U << 21U) - 1;  // three numbers out of 64 bits
-        const float draw =
-            (static_cast<float>(bits >> (21 * a) & kDraw) + 0.5F) / static_cast<float>(kDraw + 1);
-        f[a] = part.low[a] + part.width * draw;
-        x[a] = static_cast<float>(cell[a]) + f[a];
-      }
-      const bool hit = points_.any_around(cell[0], cell[1], cell[2], [&](const Local& p) {
-        return squared_distance(p, x) <= radius_ * radius_;
-      });
-      if (!hit && interpolate(f) < kInterior) found.push_back({part.width, x});
+      for (std::size_t a = 0; a < 3; ++a) f[a] = x[a] - static_cast<float>(cell[a]);
+      if (interpolate(f) < kInterior) found.push_back({width_[k], x});
     }
   }
 
   const PointBins& bins_;
   const Lattice& lattice_;
   const SignedDistance& distance_;
+  NearestKernel nearest_;
   DartKey key_;
   const CoverMasks& masks_;
   float radius_;
@@ -111,6 +139,8 @@ class BlockDarts {
   LocalPoints points_;
   std::vector<std::uint64_t> covered_;
   float corners_[8] = {};
+  float place_[3][kTile] = {};  // of the darts at hand
+  float width_[kTile] = {};     // of the parts that they were thrown into
 };
 
 /// The samples taken so far, by lattice cell, to keep them apart.
@@ -162,11 +192,13 @@ class Taken {
 
 }  // namespace
 
-std::vector<Sample> throw_darts(const PointBins& bins, const SignedDistance& distance, const DartKey& key,
-                                const std::function<bool(const Vec3&)>& allowed, int threads) {
+std::vector<Sample> throw_darts(const PointBins& bins, const SignedDistance& distance, NearestKernel nearest,
+                                const DartKey& key, const std::function<bool(const Vec3&)>& allowed,
+                                int threads) {
   const std::size_t blocks = bins.blocks().size();
   std::vector<std::vector<Dart>> found(blocks);
-  std::vector<BlockDarts> scratch(static_cast<std::size_t>(threads), BlockDarts(bins, distance, key));
+  std::vector<BlockDarts> scratch(static_cast<std::size_t>(threads),
+                                  BlockDarts(bins, distance, nearest, key));
   parallel_for(threads, static_cast<std::int64_t>(blocks), 4, [&](std::int64_t b) {
     const auto block = static_cast<std::size_t>(b);
     scratch[static_cast<std::size_t>(thread_index())].throw_into(block, found[block]);

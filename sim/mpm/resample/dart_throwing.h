@@ -37,7 +37,7 @@ struct DartKey {
 /// the order of level, block and cell, those are taken that no one taken before covers. That gives what the
 /// sequential algorithm gives. `allowed(x)`, x in m, refuses more places: obstacles' insides.
 [[nodiscard]] std::vector<Sample> throw_darts(const PointBins& bins, const SignedDistance& distance,
-                                              const DartKey& key,
+                                              NearestKernel nearest, const DartKey& key,
                                               const std::function<bool(const Vec3&)>& allowed, int threads);
 
 }  // namespace lather::mpm::resample

@@ -17,16 +17,20 @@ void LocalPoints::copy(const PointBins& bins, std::size_t block) {
         const std::int32_t found = bins.neighbour(block, o);
         const int first = oz < 0 ? lattice_.depth - 1 : 0;
         const int last = oz > 0 ? 0 : lattice_.depth - 1;
-        for (int k = first; k <= last; ++k) {
-          start_.push_back(static_cast<std::uint32_t>(x_.size()));
-          if (found < 0) continue;
-          const auto from = static_cast<std::size_t>(found);
-          const int cell = lattice_.index(i - o[0] * w, j - o[1] * w, k);
-          for (std::uint32_t p = bins.first(from, cell); p < bins.last(from, cell); ++p) {
-            const Local x = bins.local(p);
-            x_.push_back({x[0] + static_cast<float>(o[0] * w), x[1] + static_cast<float>(o[1] * w),
-                          x[2] + static_cast<float>(o[2] * w)});
-          }
+        const auto here = static_cast<std::uint32_t>(x_.size());
+        if (found < 0) {
+          start_.insert(start_.end(), static_cast<std::size_t>(last - first + 1), here);
+          continue;
+        }
+        const auto from = static_cast<std::size_t>(found);
+        const int cell = lattice_.index(i - o[0] * w, j - o[1] * w, 0);
+        const std::uint32_t begin = bins.first(from, cell + first);
+        const std::uint32_t end = bins.last(from, cell + last);
+        for (int k = first; k <= last; ++k) start_.push_back(here + bins.first(from, cell + k) - begin);
+        for (std::uint32_t p = begin; p < end; ++p) {
+          const Local x = bins.local(p);
+          x_.push_back({x[0] + static_cast<float>(o[0] * w), x[1] + static_cast<float>(o[1] * w),
+                        x[2] + static_cast<float>(o[2] * w)});
         }
       }
   start_.push_back(static_cast<std::uint32_t>(x_.size()));

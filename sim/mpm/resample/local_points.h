@@ -17,18 +17,17 @@ class LocalPoints {
   [[nodiscard]] std::size_t size() const { return x_.size(); }
   [[nodiscard]] const Local& at(std::size_t p) const { return x_[p]; }
 
-  /// True if pred(x) holds for some point of the 3^dim cells around cell (i, j, k); the nearest cells first.
-  template <class Pred>
-  [[nodiscard]] bool any_around(int i, int j, int k, const Pred& pred) const {
-    static constexpr int kRows[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
-                                        {-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
-    for (const auto& row : kRows) {
-      const std::size_t from = index(i + row[0], j + row[1], k - margin_);
-      const std::size_t end = start_[from + 2 * static_cast<std::size_t>(margin_) + 1];
-      for (std::size_t p = start_[from]; p < end; ++p)
-        if (pred(x_[p])) return true;
+  static constexpr int kRows = 9;
+  /// The rows of points in the 3^dim cells around cell (i, j, k), the nearest first, in `rows`.
+  [[nodiscard]] PointRows around(int i, int j, int k, std::uint32_t (&rows)[kRows][2]) const {
+    static constexpr int kOffsets[kRows][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
+                                               {-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+    for (int r = 0; r < kRows; ++r) {
+      const std::size_t from = index(i + kOffsets[r][0], j + kOffsets[r][1], k - margin_);
+      rows[r][0] = start_[from];
+      rows[r][1] = start_[from + 2 * static_cast<std::size_t>(margin_) + 1];
     }
-    return false;
+    return {x_.empty() ? nullptr : x_.front().data(), rows, kRows};
   }
 
  private:

@@ -22,11 +22,20 @@ void for_offsets(int dimension, const Visit& visit) {
 
 }  // namespace
 
-SignedDistance::SignedDistance(const PointBins& bins, int threads)
+SignedDistance::SignedDistance(const PointBins& bins, NearestKernel kernel, int threads)
     : bins_(bins),
       lattice_(bins.lattice()),
+      nearest_(kernel),
+      places_(3 * static_cast<std::size_t>(bins.lattice().cells())),
       distance_(bins.all_blocks().size() * static_cast<std::size_t>(bins.lattice().cells())),
       side_(bins.all_blocks().size(), Side::kOutside) {
+  const auto nodes_of_block = static_cast<std::size_t>(lattice_.cells());
+  for (std::size_t n = 0; n < nodes_of_block; ++n) {
+    const auto at = static_cast<int>(n);
+    places_[n] = static_cast<float>(at / lattice_.depth / lattice_.width);
+    places_[nodes_of_block + n] = static_cast<float>(at / lattice_.depth % lattice_.width);
+    places_[2 * nodes_of_block + n] = static_cast<float>(at % lattice_.depth);
+  }
   const std::size_t count = bins.all_blocks().size();
   const auto blocks = static_cast<std::int64_t>(count);
   parallel_for(threads, blocks, 4, [&](std::int64_t b) { categorize(static_cast<std::size_t>(b)); });
@@ -134,8 +143,6 @@ void SignedDistance::find_crossings(std::size_t block, Crossings& crossings) con
 
 /// Step 3: the distance to the nearest of those points, with the sign of step 1.
 void SignedDistance::measure(std::size_t block, const std::vector<Crossings>& crossings) {
-  const int w = lattice_.width;
-  const int depth = lattice_.depth;
   bool any = false;
   for_offsets(lattice_.dimension, [&](const std::array<int, 3>& o) {
     const std::int32_t from = bins_.beyond(block, o);
@@ -145,39 +152,27 @@ void SignedDistance::measure(std::size_t block, const std::vector<Crossings>& cr
     std::fill_n(nodes(block), lattice_.cells(), side_[block] == Side::kInside ? -kBand : kBand);
     return;
   }
-  std::vector<float> squared(static_cast<std::size_t>(lattice_.cells()), kBand * kBand);
-  const auto reach = [](float x, int n, int& first, int& last) {
-    first = std::max(static_cast<int>(std::ceil(x - kBand)), 0);
-    last = std::min(static_cast<int>(std::floor(x + kBand)), n - 1);
-  };
+  std::vector<Local> near;  // those that a node of the block may be within the band of
   for_offsets(lattice_.dimension, [&](const std::array<int, 3>& o) {
     const std::int32_t from = bins_.beyond(block, o);
     if (from < 0) return;
     for (const Local& c : crossings[static_cast<std::size_t>(from)]) {
-      const Local x = {c[0] + static_cast<float>(o[0] * w), c[1] + static_cast<float>(o[1] * w),
-                       c[2] + static_cast<float>(o[2] * w)};
-      int first[3];
-      int last[3];
-      for (int a = 0; a < 3; ++a)
-        reach(x[static_cast<std::size_t>(a)], lattice_.extent(a), first[a], last[a]);
-      for (int i = first[0]; i <= last[0]; ++i) {
-        const float dx = static_cast<float>(i) - x[0];
-        for (int j = first[1]; j <= last[1]; ++j) {
-          const float dy = static_cast<float>(j) - x[1];
-          const float plane = dx * dx + dy * dy;
-          if (plane >= kBand * kBand) continue;
-          float* row = squared.data() + lattice_.index(i, j, 0);
-          for (int k = first[2]; k <= last[2]; ++k) {
-            const float dz = static_cast<float>(k) - x[2];
-            const float s = plane + dz * dz;
-            row[k] = s < row[k] ? s : row[k];
-          }
-        }
+      Local x{};
+      bool reaches = true;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto n = static_cast<float>(lattice_.extent(static_cast<int>(a)));
+        x[a] = c[a] + static_cast<float>(o[a]) * n;
+        reaches = reaches && x[a] > -kBand && x[a] < n - 1 + kBand;
       }
+      if (reaches) near.push_back(x);
     }
   });
+  std::vector<float> squared(static_cast<std::size_t>(lattice_.cells()), kBand * kBand);
+  const std::uint32_t all[1][2] = {{0, static_cast<std::uint32_t>(near.size())}};
+  if (!near.empty())
+    nearest_(places_.data(), lattice_.cells(), {near.front().data(), all, 1}, 0, squared.data());
   float* d = nodes(block);
-  for (int n = 0; n < w * w * depth; ++n)
+  for (int n = 0; n < lattice_.cells(); ++n)
     d[n] = std::copysign(std::sqrt(squared[static_cast<std::size_t>(n)]), d[n]);
 }
 

@@ -16,7 +16,7 @@ class SignedDistance {
   /// Magnitudes are known below this; where the surface is further away they are this.
   static constexpr float kBand = 4;
 
-  SignedDistance(const PointBins& bins, int threads);
+  SignedDistance(const PointBins& bins, NearestKernel kernel, int threads);
 
   /// The nodes of one of all blocks and the first ones beyond it, z fastest: (width + 1)^2 (depth + 1) values
   /// in 3D, (width + 1)^2 in 2D.
@@ -40,6 +40,8 @@ class SignedDistance {
 
   const PointBins& bins_;
   Lattice lattice_;
+  NearestKernel nearest_;
+  std::vector<float> places_;    // [3][nodes of a block], relative to its corner
   std::vector<float> distance_;  // per block and node
   enum class Side : char { kOutside, kMixed, kInside };
   std::vector<Side> side_;  // per block: where its nodes lie

@@ -82,9 +82,9 @@ TEST_P(AvoidVoid, NewPointsKeepOutOfAllSpheresAndAwayFromTheSurface) {
     if (in_ball(p)) foam.add(p);
   }
   const PointBins bins = foam.bins();
-  const SignedDistance distance(bins, 1);
+  const SignedDistance distance(bins, foam.resampler.nearest, 1);
   const auto samples = throw_darts(
-      bins, distance, {1, 1}, [](const Vec3&) { return true; }, 2);
+      bins, distance, foam.resampler.nearest, {1, 1}, [](const Vec3&) { return true; }, 2);
   ASSERT_GT(samples.size(), 20U);
   std::vector<Vec3> points = foam.positions();
   const double alpha = static_cast<double>(cover_radius(GetParam()));

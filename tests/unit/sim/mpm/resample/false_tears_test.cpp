@@ -38,8 +38,9 @@ class TurnedFoam {
         for (int c = 0; c < 9; ++c)
           set.values<double>(t, Field::kDeformation, c)[lane] = parity * turn(c / 3, c % 3);
       }
-    const SignedDistance distance(*bins, 1);
-    const auto darts = throw_darts(*bins, distance, {1, 1}, foam.resampler.allowed, 1);
+    const SignedDistance distance(*bins, foam.resampler.nearest, 1);
+    const auto darts =
+        throw_darts(*bins, distance, foam.resampler.nearest, {1, 1}, foam.resampler.allowed, 1);
     points = compute_new_conserved_values(darts, *bins, foam.sets, 1);
     values = compute_new_field_values(points, *bins, foam.sets, foam.resampler.weights,
                                       NewVelocity::kConserving, 1);

@@ -83,7 +83,7 @@ TEST(SignedDistance, EqualsItsBruteForceTwinInPlaneAndSpace) {
     for (int i = 0; i < (dimension == 3 ? 900 : 120); ++i)
       foam.add({x(rng), x(rng), dimension == 3 ? x(rng) : 0});
     const PointBins bins = foam.bins();
-    const SignedDistance distance(bins, 2);
+    const SignedDistance distance(bins, foam.resampler.nearest, 2);
     Twin twin(foam.positions(), dimension, 12);
     int inside = 0;
     for_distances(bins, distance, [&](const Vec3& node, double d) {
@@ -104,7 +104,7 @@ TEST(SignedDistance, OfABallIsThatOfTheBall) {
   constexpr double kRadius = 9;
   foam.fill(Vec3::Constant(0.5), [](const Vec3& x) { return x.norm() < kRadius; });
   const PointBins bins = foam.bins();
-  const SignedDistance distance(bins, 1);
+  const SignedDistance distance(bins, foam.resampler.nearest, 1);
   double sum = 0;
   double count = 0;
   for_distances(bins, distance, [&](const Vec3& x, double d) {
@@ -119,7 +119,7 @@ TEST(SignedDistance, SeesNoSurfaceAtAPeriodicSeam) {
   Foam foam(3, true);
   foam.fill(Vec3::Constant(0.5), [](const Vec3& x) { return std::abs(x.y()) < 7 && std::abs(x.z()) < 7; });
   const PointBins bins = foam.bins();
-  const SignedDistance distance(bins, 1);
+  const SignedDistance distance(bins, foam.resampler.nearest, 1);
   int deep = 0;
   for_distances(bins, distance, [&](const Vec3& x, double d) {
     if (std::abs(x.y()) > 1 || std::abs(x.z()) > 1) return;
