@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "sim/math/parallel.h"
 #include "sim/plan/step_bound.h"
 #include "sim/surface/skin.h"
 
@@ -44,6 +45,7 @@ bool FrameLoop::step_to_frame(int index, const std::function<bool(const Progress
 
 void FrameLoop::step(double dt) {
   const auto start = std::chrono::steady_clock::now();
+  const double in_loops = ParallelTime::seconds();
   const std::uint64_t points = point_count();
   const Moment before = moment();
   const StepExtremes seen = take_step(dt);
@@ -56,6 +58,7 @@ void FrameLoop::step(double dt) {
   report_.point_steps += points;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   report_.wall_seconds += took.count();
+  report_.serial_seconds += took.count() - (ParallelTime::seconds() - in_loops);
 }
 
 /// Throws when the state is no longer sound.
@@ -109,7 +112,8 @@ void FrameLoop::add_up() {
   for (const std::string& name : plan_.stages)
     for (int s = 0; s < kStageCount; ++s)
       if (name == kStageNames[static_cast<std::size_t>(s)] && timed(static_cast<Stage>(s)))
-        report_.stages.push_back({name, clock().seconds(static_cast<Stage>(s))});
+        report_.stages.push_back(
+            {name, clock().seconds(static_cast<Stage>(s)), clock().serial_seconds(static_cast<Stage>(s))});
 }
 
 Frame FrameLoop::with_skins(Frame frame) const {

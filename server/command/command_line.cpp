@@ -214,7 +214,8 @@ void add_verify(CLI::App& program, AllOptions& all) {
 void add_bench(CLI::App& program, AllOptions& all) {
   CLI::App& command = *program.add_subcommand(
       "bench", "Measure how fast the solvers are on this machine, beside what its cores can do");
-  command.add_option("CASE", all.bench.cases, "names of cases, or how they begin; none: all of them");
+  command.add_option("CASE", all.bench.cases,
+                     "names of cases or scenes, or how they begin; none: all of them");
   command.add_option("--points", all.bench.points, "of the bodies: numbers with commas between")
       ->delimiter(',')
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{20'000'000}))
@@ -228,6 +229,14 @@ void add_bench(CLI::App& program, AllOptions& all) {
   command.add_option("--seconds", all.bench.seconds, "of stepping, for each row")
       ->check(CLI::Range(0.01, 600.0))
       ->capture_default_str();
+  CLI::Option* scaling =
+      command.add_flag("--scaling", all.bench.scaling,
+                       "how cost grows with points: the main case of each solver, 10,000 to 4 million");
+  command
+      .add_option("--papers", all.bench.papers,
+                  "run the scenes of this list (docs/papers.json) and set what a frame costs beside what the "
+                  "papers print")
+      ->excludes(scaling);
   command.add_flag("--json", all.bench.json, "the table as JSON");
   command.callback([&all] { all.exit_code = bench_command(all.bench); });
 }

@@ -122,6 +122,8 @@ struct BenchOptions {
   std::vector<int> threads = {1, 0};  ///< 0: all cores
   std::string kernel_level;           ///< "": the machine's best
   double seconds = 2;                 ///< of stepping, for each row
+  bool scaling = false;               ///< the main case of each solver at its own numbers of points
+  std::filesystem::path papers;       ///< list of scenes to run in place of cases; "": none
   bool json = false;
 };
 int bench_command(const BenchOptions& options);

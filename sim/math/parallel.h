@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <utility>
@@ -11,10 +12,33 @@
 /// depends on the number of threads or on the order in which they run.
 namespace lather {
 
+/// The time that the calling thread has spent in parallel loops, outermost ones only: what is left of a span
+/// of time ran on one thread alone.
+class ParallelTime {
+ public:
+  [[nodiscard]] static double seconds() { return total; }
+  /// Whether the calling thread is in a parallel loop, be it of one thread.
+  [[nodiscard]] static bool inside() { return nesting > 0 || omp_in_parallel() != 0; }
+
+  ParallelTime() { ++nesting; }
+  ~ParallelTime() {
+    if (--nesting == 0) total += std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  ParallelTime(const ParallelTime&) = delete;
+  ParallelTime& operator=(const ParallelTime&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  static inline constinit thread_local int nesting = 0;
+  static inline constinit thread_local double total = 0;
+};
+
 /// Calls body(index) for 0 <= index < count on `threads` threads, `grain` indices at a time; rethrows the
 /// first exception.
 template <class Body>
 void parallel_for(int threads, std::int64_t count, int grain, const Body& body) {
+  const ParallelTime time;
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic, grain) num_threads(threads) if (threads > 1)
   for (std::int64_t i = 0; i < count; ++i) {

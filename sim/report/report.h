@@ -11,8 +11,9 @@
 namespace lather {
 
 struct StageTime {
-  std::string name;    ///< as in the plan
-  double seconds = 0;  ///< summed over threads
+  std::string name;           ///< as in the plan
+  double seconds = 0;         ///< summed over threads
+  double serial_seconds = 0;  ///< of them, on one thread while all others waited
 };
 
 /// What an emitter has done.
@@ -126,6 +127,7 @@ struct Report {
   std::uint64_t point_steps = 0;
   double simulated_time = 0;  ///< s
   double wall_seconds = 0;    ///< in simulation steps
+  double serial_seconds = 0;  ///< of them, outside of loops that all threads share; of this process only
   double render_seconds = 0;  ///< in drawing and encoding, beside the steps
   double point_steps_per_second = 0;
   double largest_cfl = 0;         ///< speed dt / spacing, dimensionless

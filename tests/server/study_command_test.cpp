@@ -109,5 +109,18 @@ TEST_F(StudyCommand, VerifyNamesItsCases) {
   EXPECT_NE(said().find("Did you mean \"film\""), std::string::npos) << said();
 }
 
+TEST_F(StudyCommand, BenchSetsAScenesCostBesideThePapers) {
+  const std::string papers = std::string("bench --papers ") + LATHER_SOURCE_DIR + "/docs/papers.json ";
+  ASSERT_EQ(run(papers + "'falling block' --seconds 0.01 --threads 1 --json"), 0) << said();
+  const Json rows = Json::parse(said()).at("papers");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("name"), "falling block");
+  EXPECT_EQ(rows[0].at("printed"), Json::array({0.031, 0.031}));
+  EXPECT_NEAR(rows[0].at("steps_per_frame"), 21, 1e-9);  // a frame of 1/48 s in steps of at most 1e-3 s
+  EXPECT_GT(rows[0].at("seconds_per_frame"), 0);
+  EXPECT_NE(run(papers + "no-such-scene"), 0);
+  EXPECT_NE(said().find("falling block"), std::string::npos) << said();  // among those that there are
+}
+
 }  // namespace
 }  // namespace lather::server

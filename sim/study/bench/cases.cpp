@@ -13,14 +13,17 @@ constexpr double kRate = 10;       // 1/s, of the shear that all bodies start wi
 /// A foam that yields from its first step on: its shear stress grows by a thousandth of the modulus a step.
 constexpr HerschelBulkleyParameters kFoam = {100, 1e5, 1e3, 1e-3, 10, 0.5};
 
+constexpr double kHugeDomain = 32'000;  // cells along each axis, near the most that there can be
+
 /// A cube (a square in 2D) of about `points` points about the origin, under shear, in a free space twice as
-/// wide.
-Scene sheared_block(Scene scene, std::uint64_t points) {
+/// wide, or `huge`.
+Scene sheared_block(Scene scene, std::uint64_t points, bool huge = false) {
   const double cells = static_cast<double>(points) / scene.points_per_cell;
   const double side = scene.spacing * std::round(std::pow(cells, 1.0 / scene.dimension));
   scene.name = "bench";
   scene.gravity = Vec3::Zero();
-  scene.domain.box = {Vec3::Constant(-side), Vec3::Constant(side)};
+  const double half_width = huge ? kHugeDomain / 2 * scene.spacing : side;
+  scene.domain.box = {Vec3::Constant(-half_width), Vec3::Constant(half_width)};
   scene.domain.boundary = Boundary::kOpen;
   scene.bodies.push_back(body_of(scene, box_at(Vec3::Zero(), Vec3::Constant(side))));
   scene.bodies.front().velocity_gradient(0, 1) = kRate;
@@ -60,8 +63,8 @@ Scene jittered_particles(int dimension, const Law& law, KernelShape shape, doubl
 constexpr NeoHookeanParameters kJelly = {{1000, 1e5, 0.3}, {}};
 
 /// A case whose scene is `start` with the block in it.
-BenchCase block(const std::string& name, const Scene& start) {
-  return {name, [start](std::uint64_t points) { return sheared_block(start, points); }};
+BenchCase block(const std::string& name, const Scene& start, bool huge = false) {
+  return {name, [start, huge](std::uint64_t points) { return sheared_block(start, points, huge); }};
 }
 
 std::vector<BenchCase> grid_cases() {
@@ -95,6 +98,10 @@ std::vector<BenchCase> grid_cases() {
                      scene.gravity = {0, -9.81, 0};
                      return scene;
                    }});
+  Scene semi_implicit = foam_scene(Kernel::kCubic, Transfer::kApic);
+  semi_implicit.numerics.integration = Integration::kSemiImplicit;
+  cases.push_back(block("mpm/cubic/apic/semi-implicit/float", semi_implicit));
+  cases.push_back(block("mpm/cubic/flip/huge-domain/float", foam_scene(), true));
   Scene precise = foam_scene();
   precise.numerics.precision = Precision::kDouble;
   cases.push_back(block("mpm/cubic/flip/herschel-bulkley/double", precise));
@@ -121,6 +128,7 @@ std::vector<BenchCase> particle_cases() {
   Scene wet = of(kJelly);
   wet.materials.front().phase = Phase{0.5, 1e-6, {}};
   cases.push_back(block("mlsrk/tensor-3/phases/float", wet));
+  cases.push_back(block("mlsrk/tensor-3/huge-domain/float", of(kJelly), true));
   Scene precise = of(kJelly);
   precise.numerics.precision = Precision::kDouble;
   cases.push_back(block("mlsrk/tensor-3/neo-hookean/double", precise));
@@ -137,6 +145,13 @@ const std::vector<BenchCase>& bench_cases() {
     for (BenchCase& c : particle_cases()) all.push_back(std::move(c));
     return all;
   }();
+  return cases;
+}
+
+const std::vector<ScalingCase>& scaling_cases() {
+  static const std::vector<ScalingCase> cases = {
+      {"mpm/cubic/flip/herschel-bulkley/float", {10'000, 30'000, 100'000, 300'000, 1'000'000, 4'000'000}},
+      {"mlsrk/tensor-3/neo-hookean/float", {10'000, 30'000, 100'000, 300'000, 1'000'000}}};
   return cases;
 }
 
