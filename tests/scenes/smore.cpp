@@ -22,22 +22,31 @@ struct Hole {
   double z;
   double radius;
 };
-constexpr std::array<Hole, 5> kHoles = {{{0, 0, 0.010},
+// The first is the middle one, which a bar parts into two openings.
+constexpr std::array<Hole, 5> kHoles = {{{0, 0, 0.014},
                                          {0.026, 0.026, 0.007},
                                          {-0.026, 0.026, 0.007},
                                          {0.026, -0.026, 0.007},
                                          {-0.026, -0.026, 0.007}}};
-constexpr double kHalfCracker = 0.005;
-constexpr double kFullPress = 0.0405;  // height of the cracker's middle
-constexpr double kRim = 0.030;         // from the axis: beyond lies only foam that was pressed out
-constexpr double kLifted = 0.9;        // s
+constexpr double kHalfCracker = 0.003;
+constexpr double kFullPress = 0.0385;                   // height of the cracker's middle
+constexpr double kPressed = kFullPress - kHalfCracker;  // the plane to which it presses the foam
+constexpr double kRim = 0.030;    // from the axis: beyond lies only foam that was pressed out
+constexpr double kLifted = 0.67;  // s
 
-// The foam fills the holes and rises by half the middle one's radius, 5 mm (one spacing of the preview), over
-// it, and over the rims of all others, for 0.06 s: most of the time that the cracker rests.
+// The foam fills the holes and rises by 5 mm (one spacing of the preview) over the middle one, and over the
+// rims of all others, for 0.06 s: most of the time that the cracker rests.
 constexpr double kBulge = 0.005;     // m
 constexpr double kBulgeTime = 0.06;  // s
-// The peak: from the end of the lift on, 0.2 s, its tip is 25 mm over the plane to which the cracker had
-// pressed the foam (more than twice the depth of foam left there), and 15 mm over all that lies beside it.
+// One neck: when the cracker has been lifted by four times the depth of foam that it had left, 40 mm, the
+// foam is still one connected set, and halfway between the pressed plane and the cracker all of it lies
+// nearer to the axis than the rim of the middle hole, by which it is pulled.
+constexpr double kNeckLift = 0.040;
+constexpr double kNeckRadius = 0.014;
+// It tears: after the lift there are two parts. A part holds 2 % of the points or more.
+constexpr double kPart = 0.02;
+// The peak: from the end of the lift on, 0.4 s, its tip is 25 mm over the pressed plane (more than twice the
+// depth of foam left there), and 15 mm over all that lies beside it.
 constexpr double kOverPress = 0.025;
 constexpr double kOverRest = 0.015;
 
@@ -59,8 +68,7 @@ struct Peak {
   double rest = kNone;
 };
 
-Peak find_peak(const Simulation& simulation, double spacing) {
-  const Clusters c = find_clusters(simulation, spacing);
+Peak find_peak(const Clusters& c) {
   Peak peak;
   for (std::size_t i = 0; i < c.points.size(); ++i) {
     if (c.cluster[i] != 0) continue;
@@ -71,33 +79,58 @@ Peak find_peak(const Simulation& simulation, double spacing) {
   return peak;
 }
 
+/// Farthest that foam lies from the axis in a layer of one spacing around `height`, m.
+double radius_at(const Clusters& c, double height, double spacing) {
+  double radius = 0;
+  for (const PointState& p : c.points)
+    if (std::abs(p.position.y() - height) < spacing / 2)
+      radius = std::max(radius, std::hypot(p.position.x(), p.position.z()));
+  return radius;
+}
+
 }  // namespace
 
 void expect_foam_through_holes_and_a_peak(const Scene& scene, int threads) {
   const Obstacle& cracker = scene.obstacles.back();
   ASSERT_EQ(cracker.name, "upper cracker");
-  double bulging = 0;  // s
-  Peak least;          // over all frames after the lift
+  double bulging = 0;       // s
+  bool necked = false;      // the neck has been measured
+  double least_second = 1;  // share of the second largest part, over all frames after the lift
+  Peak least;               // likewise
   least.tip = std::numeric_limits<double>::infinity();
   run_scene(scene, threads, [&](int frame, const Simulation& simulation) {
     const double t = frame / scene.frame_rate;
     const double middle = pose_at(cracker.motion, t).translation.y();
-    const std::array<double, 5> over = bulges(simulation, middle + kHalfCracker);
-    if (middle < kFullPress + kHalfCracker) {  // around full press
+    if (middle < kFullPress + 0.005) {  // around full press
+      const std::array<double, 5> over = bulges(simulation, middle + kHalfCracker);
       if (over[0] >= kBulge && *std::min_element(over.begin(), over.end()) > 0)
         bulging += 1 / scene.frame_rate;
       std::printf("  %.3f s: over the holes %.1f, %.1f, %.1f, %.1f, %.1f mm\n", t, 1e3 * over[0],
                   1e3 * over[1], 1e3 * over[2], 1e3 * over[3], 1e3 * over[4]);
     }
+    if (middle < kFullPress + kNeckLift) return;
+    const Clusters c = find_clusters(simulation, scene.spacing);
+    if (!necked) {
+      necked = true;
+      const double radius = radius_at(c, (kPressed + middle - kHalfCracker) / 2, scene.spacing);
+      std::printf("  %.3f s: neck of %.1f mm in radius, %.2f %% of the foam in the second part\n", t,
+                  1e3 * radius, 100 * c.share(1));
+      EXPECT_LT(c.share(1), kPart);
+      EXPECT_GT(radius, 0);
+      EXPECT_LT(radius, kNeckRadius);
+    }
     if (t < kLifted) return;
-    const Peak peak = find_peak(simulation, scene.spacing);
+    const Peak peak = find_peak(c);
     least.tip = std::min(least.tip, peak.tip);
     least.rest = std::max(least.rest, peak.rest);
+    least_second = std::min(least_second, c.share(1));
   });
-  std::printf("  peak at least %.1f mm over the pressed plane, %.1f mm over the rest\n",
-              1e3 * (least.tip - kFullPress + kHalfCracker), 1e3 * (least.tip - least.rest));
+  std::printf("  peak at least %.1f mm over the pressed plane, %.1f mm over the rest; %.1f %% torn off\n",
+              1e3 * (least.tip - kPressed), 1e3 * (least.tip - least.rest), 100 * least_second);
   EXPECT_GE(bulging, kBulgeTime);
-  EXPECT_GE(least.tip - (kFullPress - kHalfCracker), kOverPress);
+  EXPECT_TRUE(necked);
+  EXPECT_GE(least_second, kPart);
+  EXPECT_GE(least.tip - kPressed, kOverPress);
   EXPECT_GE(least.tip - least.rest, kOverRest);
 }
 

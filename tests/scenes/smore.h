@@ -7,8 +7,9 @@
 
 namespace lather::testing_support {
 
-/// The uniform s'more: foam above the holes while the cracker presses, and the peak after it has been lifted,
-/// each higher than stated for as long as stated. See smore.cpp for the numbers.
+/// The uniform s'more: foam above the holes while the cracker presses, one thin neck as it is lifted, which
+/// tears, and the peak that stays; foam and peak higher than stated for as long as stated. See smore.cpp for
+/// the numbers.
 void expect_foam_through_holes_and_a_peak(const Scene& scene, int threads);
 
 /// The shell around the core of the toasted s'more.
