@@ -15,13 +15,14 @@ if(LATHER_SANITIZE)
   add_link_options(-fsanitize=${LATHER_SANITIZE})
 endif()
 # OpenVDB's loops are synchronised inside TBB's library, which is not instrumented: the thread sanitizer would report
-# them falsely. And its PointPartitioner.h takes &vector[0] of an empty vector, which is harmless but a null reference.
+# them falsely. And its PointPartitioner.h takes &vector[0] of an empty vector, which is harmless but a null reference;
+# TBB's concurrent_hash_map.h makes a pointer to a node from that to a marker which is aligned to less.
 # Call it with the target and its sources that include OpenVDB.
 function(lather_uses_openvdb target)
   if(LATHER_SANITIZE MATCHES thread)
     set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread)
   elseif(LATHER_SANITIZE MATCHES undefined)
-    set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -fno-sanitize=null)
+    set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -fno-sanitize=null,alignment)
   endif()
 endfunction()
 # Baseline of everything but the kernels, which are compiled once per level (sim/mpm).

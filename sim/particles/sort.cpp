@@ -166,6 +166,7 @@ Departures ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
   // Move the points.
   const auto stride = static_cast<std::size_t>(layout_.stride);
   std::vector<Line> sorted(static_cast<std::size_t>(tile_end) * stride / sizeof(Line));
+  auto* const sorted_tiles = reinterpret_cast<std::byte*>(sorted.data());
   parallel_for(threads, static_cast<std::int64_t>(chunk_count), 1, [&](std::int64_t index) {
     const auto c = static_cast<std::size_t>(index);
     Chunk& chunk = chunks[c];
@@ -174,7 +175,7 @@ Departures ParticleSet<Real>::sort(const CellBounds& bounds, int threads) {
       if (dropped(chunk.keys[i])) continue;
       if (chunk.blocks[at] != chunk.keys[i]) at = chunk.find(chunk.keys[i]);
       const auto slot = static_cast<std::size_t>(chunk.cursor[at]++);
-      copy_point(sorted.data()->bytes + slot / kTile * stride, static_cast<int>(slot % kTile),
+      copy_point(sorted_tiles + slot / kTile * stride, static_cast<int>(slot % kTile),
                  tile(c * kChunkTiles + i / kTile), static_cast<int>(i % kTile));
     }
   });
