@@ -18,6 +18,8 @@ endfunction()
 # lather_sim. SOURCE hands its table out by a function FLOAT_OR_DOUBLE_TABLE_LEVEL(), e.g. float_kernels_v2().
 #
 # Eigen is renamed per level and symbols are hidden, so that the linker can merge no template of one level with another's.
+# Without EIGEN_FAST_MATH=0 its square roots would start from the processor's approximate instructions, whose bits are
+# each maker's own: a job that goes on on another machine would no longer be bit-equal.
 function(lather_add_kernels name source table)
   set(level_flags_v2 -march=x86-64-v2)
   set(level_flags_v3 -march=x86-64-v3)
@@ -31,7 +33,8 @@ function(lather_add_kernels name source table)
       set(target ${name}_${real}_${level})
       add_library(${target} OBJECT ${source})
       target_compile_definitions(${target} PRIVATE
-        LATHER_LEVEL=${level} LATHER_REAL=${real} LATHER_TABLE=${real}_${table}_${level} Eigen=Eigen_${level})
+        LATHER_LEVEL=${level} LATHER_REAL=${real} LATHER_TABLE=${real}_${table}_${level} Eigen=Eigen_${level}
+        EIGEN_FAST_MATH=0)
       target_compile_options(${target} PRIVATE ${level_flags_${level}}
         $<$<NOT:$<CONFIG:Debug>>:${optimize}> -fvisibility=hidden
         -fno-math-errno -fno-trapping-math

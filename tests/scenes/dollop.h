@@ -20,11 +20,11 @@ struct Pull {
 /// the points, some hundred, so that no crumb counts.
 [[nodiscard]] Pull pull_dollop(const Scene& scene, int threads, double lasting, double until);
 
-/// At a size that the scene's file names: the brittle run (eta_p = 100 s) comes apart first, then the sticky
-/// one of the scene, both while the foam that does not tear is still one connected set.
-/// `overrides` are laid over the scene.
+/// At a size that the scene's file names: brittle foam (eta_p = 100 s) comes apart earlier than the sticky
+/// one of the scene, in the mean over `variants` of the scene, each made by its overrides; and the first
+/// variant's sticky foam while the foam that does not tear is still one connected set.
 void expect_tearing_parts_what_else_stays_connected(const std::string& size, int threads,
-                                                    const std::vector<Override>& overrides = {});
+                                                    const std::vector<std::vector<Override>>& variants);
 
 /// With subgrid removal, more than nothing and less than 0.28 % of the mass goes. [Foam Figure 8]
 void expect_removal_takes_little(const std::string& size, int threads, std::vector<Override> overrides = {});

@@ -13,7 +13,7 @@ const std::vector<Override> kPlannedSteps = {{"/numerics/time_step", "0"},
                                              {"/numerics/safety_factor", "0.5"}};
 
 TEST(PulledDollop, BreaksWhereItTearsSoonerIfBrittleAndStaysConnectedWithoutTearing) {
-  expect_tearing_parts_what_else_stays_connected("paper", 0, kPlannedSteps);
+  expect_tearing_parts_what_else_stays_connected("paper", 0, {kPlannedSteps});
 }
 
 TEST(PulledDollop, LosesLittleMassToSubgridRemoval) {
