@@ -6,6 +6,7 @@
 
 #include "sim/math/parallel.h"
 #include "sim/plan/step_bound.h"
+#include "sim/report/energy_balance.h"
 #include "sim/surface/skin.h"
 
 namespace lather {
@@ -93,11 +94,29 @@ std::string FrameLoop::advice(double dt) const {
                          : "Lower /numerics/safety_factor from " + with_unit(n.safety_factor, "") + ".";
 }
 
+void FrameLoop::check_energy(const FrameMeasure& m) const {
+  const Scene& scene = plan_.scene;
+  if (report_.frames.empty() || is_driven(scene)) return;
+  const double was = total_energy(scene, report_.frames.front());
+  const double is = total_energy(scene, m);
+  if (is <= (1 + scene.numerics.allowed_energy_gain) * was + rounding_energy(scene, m)) return;
+  SimulationError::Details d;
+  d.kind = "energy";
+  d.step = static_cast<long long>(m.step);
+  d.time = m.time;
+  d.quantity = "the material's energy";
+  d.value = with_unit(is, "J") + ", where it began with " + with_unit(was, "J") + " and nothing gave it any";
+  d.advice = advice(report_.largest_time_step) + " Or allow it: /numerics/allowed_energy_gain is " +
+             with_unit(scene.numerics.allowed_energy_gain, "") + ".";
+  throw SimulationError(d);
+}
+
 void FrameLoop::record(int index) {
   FrameMeasure m = measure_state(index);
   m.frame = index;
   m.time = moment().time;
   m.step = moment().step;
+  check_energy(m);
   report_.frames.push_back(m);
   measured_frame_ = index;
   add_up();

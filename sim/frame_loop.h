@@ -84,6 +84,8 @@ class FrameLoop : public Simulation {
   /// Totals of the report, of all steps so far.
   void add_up();
   void check(const StepExtremes& seen, const Moment& start, double dt) const;
+  /// Throws where a frame has more energy than the scene allows.
+  void check_energy(const FrameMeasure& m) const;
 
   std::vector<FrameSkin> skins_;  // of the measured frame; none where nobody asks, or after a restore
   double last_step_ = 0;

@@ -139,27 +139,36 @@ bool Walls::inside(const Vec3& x) const {
   return true;
 }
 
-bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink,
-                    double radius) const {
+bool Walls::resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink, double radius,
+                    double ahead) const {
   const Vec3 before = velocity;
-  if (!touch(x, velocity, radius)) return false;
+  if (!touch(x, velocity, radius, ahead)) return false;
   sink.take(index_, x, before - velocity, mass);
   return true;
 }
 
-bool Walls::touch(const Vec3& x, Vec3& velocity, double radius) const {
+bool Walls::touch(const Vec3& x, Vec3& velocity, double radius, double ahead) const {
   bool changed = false;
   for (int a = 0; a < dimension_; ++a) {
     if (!closed_[static_cast<std::size_t>(a)]) continue;
-    const bool below = x[a] <= box_.min[a] + radius + tolerance_;
-    const bool above = x[a] >= box_.max[a] - radius - tolerance_;
-    if (!below && !above) continue;
+    // Room below and above, in front of the faces.
+    const double below = x[a] - (box_.min[a] + radius);
+    const double above = box_.max[a] - radius - x[a];
+    const double way = velocity[a] * ahead;
+    const bool down = below <= tolerance_ || way < -below;
+    const bool up = above <= tolerance_ || way > above;
+    if (!down && !up) continue;
+    // As far as the face, where there is still a way to it.
+    double allowed = 0;
+    if (way < -below && below > tolerance_) allowed = -below / ahead;
+    if (way > above && above > tolerance_) allowed = above / ahead;
     if (stick_) {
       velocity.setZero();
+      velocity[a] = allowed;
       return true;
     }
-    if ((below && velocity[a] < 0) || (above && velocity[a] > 0)) {
-      velocity[a] = 0;
+    if ((down && velocity[a] < 0) || (up && velocity[a] > 0)) {
+      velocity[a] = allowed;
       changed = true;
     }
   }

@@ -97,14 +97,17 @@ class Walls {
   [[nodiscard]] bool inside(const Vec3& x) const;
 
   /// Velocity at `x` after contact: beyond a slip face nothing goes on outward, beyond a stick face nothing
-  /// moves. A ball of `radius` (m) around `x` counts as beyond as soon as it touches.
-  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink, double radius = 0) const;
+  /// moves. A ball of `radius` (m) around `x` counts as beyond as soon as it touches. What would touch a face
+  /// within `ahead` (s) comes to it just then, so that a point that moves for so long never leaves the
+  /// domain.
+  bool resolve(const Vec3& x, Vec3& velocity, double mass, const ContactSink& sink, double radius = 0,
+               double ahead = 0) const;
 
   /// The same for a step that solves for velocities; see Obstacles::hold().
   void hold(const Vec3& x, const Vec3& velocity, Hold& hold) const;
 
  private:
-  bool touch(const Vec3& x, Vec3& velocity, double radius) const;
+  bool touch(const Vec3& x, Vec3& velocity, double radius, double ahead) const;
 
   Box3 box_;
   int dimension_;

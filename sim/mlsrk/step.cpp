@@ -196,7 +196,7 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
     Seen seen;
     clock_.time(Stage::kMomentum, [&] { seen.change_squared = accelerate(t, step, scratch(), seen.light); });
     clock_.time(Stage::kParticleCollisions, [&] {
-      resolve_collisions(t, scratch());
+      resolve_collisions(t, dt, scratch());
       if (!grips_.none()) drive_points(t);
     });
     return seen;

@@ -99,7 +99,7 @@ class Stepper {
   void compute_stress(State<Real>& state);
   void update_velocities(State<Real>& state, double dt);
   double accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch, std::uint64_t& light);
-  void resolve_collisions(std::size_t tile, Scratch& scratch);
+  void resolve_collisions(std::size_t tile, double dt, Scratch& scratch);
   void drive_points(std::size_t tile);
   void compute_gradients();
   void diffuse(State<Real>& state, double dt);

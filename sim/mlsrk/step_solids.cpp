@@ -39,11 +39,11 @@ void Stepper<Real>::fill_solids() {
 }
 
 template <class Real>
-void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
+void Stepper<Real>::resolve_collisions(std::size_t tile, double dt, Scratch& scratch) {
   const Box3 box = cloud_.box(tile);
   const double stand_off = model_.stand_off;
   obstacles_.find_near(box.center(), 0.5 * box.extent().norm() + stand_off, scratch.near);
-  const bool walls = model_.walls.near(box.min, box.max, stand_off);
+  const bool walls = model_.walls.near(box.min, box.max, stand_off + model_.scene.spacing);
   if (scratch.near.empty() && !walls) return;
   static const WatchedContacts nobody;
   const ContactSink sink(nobody, nullptr);
@@ -55,7 +55,7 @@ void Stepper<Real>::resolve_collisions(std::size_t tile, Scratch& scratch) {
     const Vec3 x = cloud_.position(slot);
     const auto mass = static_cast<double>(velocity(slot, 3));
     bool changed = obstacles_.resolve(scratch.near, x, v, mass, sink, stand_off);
-    if (walls) changed = model_.walls.resolve(x, v, mass, sink, stand_off) || changed;
+    if (walls) changed = model_.walls.resolve(x, v, mass, sink, stand_off, dt) || changed;
     if (!changed) continue;
     for (int a = 0; a < model_.scene.dimension; ++a) velocity(slot, a) = static_cast<Real>(v[a]);
   }
@@ -75,8 +75,8 @@ void Stepper<Real>::drive_points(std::size_t tile) {
 
 template void Stepper<float>::fill_solids();
 template void Stepper<double>::fill_solids();
-template void Stepper<float>::resolve_collisions(std::size_t, Scratch&);
-template void Stepper<double>::resolve_collisions(std::size_t, Scratch&);
+template void Stepper<float>::resolve_collisions(std::size_t, double, Scratch&);
+template void Stepper<double>::resolve_collisions(std::size_t, double, Scratch&);
 template void Stepper<float>::drive_points(std::size_t);
 template void Stepper<double>::drive_points(std::size_t);
 

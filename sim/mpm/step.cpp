@@ -267,7 +267,7 @@ StepExtremes Stepper<Real>::update_particles(State<Real>& state, const StepConst
       if (recovery_exponent_[s] != Real(0))
         clock_.time(Stage::kRecovery, [&] { model_.kernels.recover(p, recovery_exponent_[s]); });
       clock_.time(Stage::kParticleCollisions,
-                  [&] { resolve_particle_collisions(s, b, state.sets[s], at, near_[thread]); });
+                  [&] { resolve_particle_collisions(s, b, state.sets[s], at, step.dt, near_[thread]); });
       if (tally_.watches_planes()) tally_.before_move(state.sets[s], at);
       clock_.time(Stage::kPositions, [&] {
         const BlockExtremes e = model_.kernels.advance(p, step);
@@ -287,7 +287,8 @@ StepExtremes Stepper<Real>::update_particles(State<Real>& state, const StepConst
 
 template <class Real>
 void Stepper<Real>::resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
-                                                const BlockRange& range, std::vector<std::uint32_t>& near) {
+                                                const BlockRange& range, double dt,
+                                                std::vector<std::uint32_t>& near) {
   const Scene& scene = model_.scene;
   const double h = scene.spacing;
   const int dim = scene.dimension;
@@ -299,7 +300,7 @@ void Stepper<Real>::resolve_particle_collisions(std::size_t set, std::size_t blo
     high[a] = low[a] + (kBlockWidth + 2) * h;
   }
   obstacles_.find_near(0.5 * (low + high), 0.5 * (high - low).norm(), near);
-  const bool walls = model_.walls.near(low, high, 0);
+  const bool walls = model_.walls.near(low, high, h);  // no point moves farther in a step
   if (near.empty() && !walls) return;
   const auto mass = static_cast<double>(model_.materials[set].mass);
   const ContactSink sink = tally_.point_sink(block);
@@ -310,7 +311,7 @@ void Stepper<Real>::resolve_particle_collisions(std::size_t set, std::size_t blo
     Vec3 v = points.velocity(t, lane);
     const double own_mass = mass * points.share(t, lane);
     bool changed = obstacles_.resolve(near, x, v, own_mass, sink);
-    if (walls) changed = model_.walls.resolve(x, v, own_mass, sink) || changed;
+    if (walls) changed = model_.walls.resolve(x, v, own_mass, sink, 0, dt) || changed;
     if (!changed) continue;
     for (int a = 0; a < dim; ++a)
       points.template values<Real>(t, Field::kVelocity, a)[lane] = static_cast<Real>(v[a]);

@@ -149,7 +149,7 @@ class Stepper {
   StepExtremes update_particles(State<Real>& state, const StepConstants<Real>& step);
   void plan_recovery(State<Real>& state, double dt);
   void resolve_particle_collisions(std::size_t set, std::size_t block, ParticleSet<Real>& points,
-                                   const BlockRange& range, std::vector<std::uint32_t>& near);
+                                   const BlockRange& range, double dt, std::vector<std::uint32_t>& near);
   void remove_subgrid(State<Real>& state);
   void avoid_void(State<Real>& state);
 

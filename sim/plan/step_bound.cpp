@@ -6,25 +6,10 @@
 
 namespace lather {
 
-double wave_speed(const HerschelBulkleyParameters& law) {
-  return std::sqrt((law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus) / law.density);
-}
+namespace {
 
-double wave_speed(const Law& law) {
-  struct Speed {
-    double operator()(const HerschelBulkleyParameters& p) const { return wave_speed(p); }
-    double operator()(const NeoHookeanParameters& p) const { return of(p.elastic); }
-    double operator()(const DruckerPragerParameters& p) const { return of(p.elastic); }
-    double operator()(const SnowParameters& p) const { return of(p.elastic); }
-    double operator()(const LiquidParameters& p) const { return std::sqrt(p.bulk_modulus / p.density); }
-    static double of(const ElasticParameters& p) {
-      return std::sqrt((p.lame_lambda() + 2 * p.lame_mu()) / p.density);
-    }
-  };
-  return std::visit(Speed{}, law);
-}
-
-double viscous_diffusion(const Law& law, int dimension) {
+/// Of a law that has one; else none.
+ViscousParameters newtonian_viscosity(const Law& law) {
   struct Viscous {
     ViscousParameters operator()(const HerschelBulkleyParameters&) const { return {}; }
     ViscousParameters operator()(const NeoHookeanParameters& p) const { return p.viscous; }
@@ -32,7 +17,55 @@ double viscous_diffusion(const Law& law, int dimension) {
     ViscousParameters operator()(const SnowParameters&) const { return {}; }
     ViscousParameters operator()(const LiquidParameters& p) const { return p.viscous; }
   };
-  const ViscousParameters v = std::visit(Viscous{}, law);
+  return std::visit(Viscous{}, law);
+}
+
+/// Pa, at rest.
+struct LameModuli {
+  double lambda = 0;
+  double mu = 0;
+};
+LameModuli lame_moduli(const Law& law) {
+  struct Moduli {
+    LameModuli operator()(const HerschelBulkleyParameters& p) const {
+      return {p.bulk_modulus - 2.0 / 3.0 * p.shear_modulus, p.shear_modulus};
+    }
+    LameModuli operator()(const NeoHookeanParameters& p) const { return of(p.elastic); }
+    LameModuli operator()(const DruckerPragerParameters& p) const { return of(p.elastic); }
+    LameModuli operator()(const SnowParameters& p) const { return of(p.elastic); }
+    LameModuli operator()(const LiquidParameters& p) const { return {p.bulk_modulus, 0}; }
+    static LameModuli of(const ElasticParameters& p) { return {p.lame_lambda(), p.lame_mu()}; }
+  };
+  return std::visit(Moduli{}, law);
+}
+
+/// Calls visit(law) for every law that a point of the scene may have.
+template <class Visit>
+void for_laws(const Scene& scene, const Visit& visit) {
+  const auto visit_material = [&](const std::string& name) {
+    for (const Material& m : scene.materials)
+      if (m.name == name)
+        for (const Law& law : m.laws()) visit(law);
+  };
+  for (const Body& body : scene.bodies)
+    for (const std::string& name : body.material_names()) visit_material(name);
+  for (const Emitter& emitter : scene.emitters) visit_material(emitter.material);
+}
+
+}  // namespace
+
+double wave_speed(const HerschelBulkleyParameters& law) {
+  return std::sqrt((law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus) / law.density);
+}
+
+double wave_speed(const Law& law) {
+  if (const auto* foam = std::get_if<HerschelBulkleyParameters>(&law)) return wave_speed(*foam);
+  const LameModuli moduli = lame_moduli(law);
+  return std::sqrt((moduli.lambda + 2 * moduli.mu) / density(law));
+}
+
+double viscous_diffusion(const Law& law, int dimension) {
+  const ViscousParameters v = newtonian_viscosity(law);
   const double along = 2 * (1 - 1.0 / dimension) * v.viscosity + v.bulk_viscosity;
   return (along + v.viscosity) / density(law);
 }
@@ -50,27 +83,37 @@ double phase_step_bound(const Scene& scene) {
 
 double step_bound(const Scene& scene) {
   double bound = phase_step_bound(scene);
-  const auto count = [&](const std::string& name) {
-    for (const Material& m : scene.materials) {
-      if (m.name != name) continue;
-      for (const Law& law : m.laws()) {
-        bound = std::min(bound, scene.spacing / wave_speed(law));
-        const double diffusion = viscous_diffusion(law, scene.dimension);
-        if (diffusion > 0) bound = std::min(bound, scene.spacing * scene.spacing / (2 * diffusion));
-      }
-    }
-  };
-  for (const Body& body : scene.bodies)
-    for (const std::string& name : body.material_names()) count(name);
-  for (const Emitter& emitter : scene.emitters) count(emitter.material);
+  for_laws(scene, [&](const Law& law) {
+    bound = std::min(bound, scene.spacing / wave_speed(law));
+    const double diffusion = viscous_diffusion(law, scene.dimension);
+    if (diffusion > 0) bound = std::min(bound, scene.spacing * scene.spacing / (2 * diffusion));
+  });
+  return bound;
+}
+
+double lone_point_bound(const Scene& scene) {
+  double bound = std::numeric_limits<double>::infinity();
+  if (scene.solver != Solver::kMpm) return bound;
+  const double s = scene.numerics.kernel == Kernel::kCubic ? 3.137 : 6;
+  for_laws(scene, [&](const Law& law) {
+    const double unit = s / (density(law) * scene.spacing * scene.spacing);
+    const LameModuli m = lame_moduli(law);
+    const ViscousParameters v = newtonian_viscosity(law);
+    const double squared = unit * std::max(scene.dimension * m.lambda + 2 * m.mu, 2 * m.mu);
+    const double half_rate = 0.5 * unit * std::max(scene.dimension * v.bulk_viscosity, 2 * v.viscosity);
+    bound = std::min(bound, 2 / (half_rate + std::sqrt(half_rate * half_rate + squared)));
+  });
   return bound;
 }
 
 double planned_step(const Scene& scene, double bound) {
   const Numerics& n = scene.numerics;
-  const double factor = n.integration == Integration::kSemiImplicit ? n.implicit_step_factor : 1;
-  const double step =
-      n.time_step > 0 ? n.time_step : std::min(factor * n.safety_factor * bound, n.max_time_step);
+  double share = n.safety_factor;
+  if (n.integration == Integration::kSemiImplicit)
+    share *= n.implicit_step_factor;
+  else if (scene.solver == Solver::kMpm)
+    share = std::min(share, lone_point_bound(scene) / step_bound(scene));
+  const double step = n.time_step > 0 ? n.time_step : std::min(share * bound, n.max_time_step);
   return std::min(step, 1 / scene.frame_rate);
 }
 

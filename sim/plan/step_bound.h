@@ -4,10 +4,10 @@
 
 namespace lather {
 
-/// Speed of compression waves at rest, sqrt((kappa + 4/3 mu) / rho), m/s.
+/// Speed of compression waves at rest, m/s: sqrt((lambda + 2 mu) / rho), which is sqrt(K / rho) of liquids.
+/// Hardening (snow, drucker-prager) is left out: it starts at 1, and the running step counts what it has come
+/// to.
 [[nodiscard]] double wave_speed(const HerschelBulkleyParameters& law);
-/// The same of any law, m/s: sqrt((lambda + 2 mu) / rho) of elastic ones, sqrt(K / rho) of liquids. Hardening
-/// (snow, drucker-prager) is left out: it starts at 1, and the running step counts what it has come to.
 [[nodiscard]] double wave_speed(const Law& law);
 
 /// Diffusion of velocity by a law's Newtonian viscosity, m^2/s: of its change along the direction it varies
@@ -26,15 +26,26 @@ namespace lather {
 /// factor. The smallest, over materials and concentrations, of spacing / wave speed and spacing^2 / (2
 /// viscous_diffusion()), and phase_step_bound().
 ///
-/// Both are below what explicit steps bear. In a lattice a gradient that is exact for linear functions sees a
-/// wave number of 1/spacing at the most along each axis, so k^2 <= d / spacing^2; waves are stable to
-/// 2 / (c k) >= 1.15 spacing / c, diffusion to 2 / (nu k^2) >= 0.67 spacing^2 / nu. Light points
-/// at surfaces are left to the safety factor. On a grid k^2 <= 1.5 / spacing^2 in any direction, quadratic
-/// splines' largest stiffness over lumped mass, (2 - 2 cos k) (2 + cos k) / 3; of cubic ones it is 1.08.
+/// Both are below what explicit steps bear where points are many. In a lattice a gradient that is exact for
+/// linear functions sees a wave number of 1/spacing at the most along each axis, so k^2 <= d / spacing^2;
+/// waves are stable to 2 / (c k) >= 1.15 spacing / c, diffusion to 2 / (nu k^2) >= 0.67 spacing^2 / nu. Light
+/// points at surfaces are left to the safety factor. On a grid k^2 <= 1.5 / spacing^2 in any direction,
+/// quadratic splines' largest stiffness over lumped mass, (2 - 2 cos k) (2 + cos k) / 3; of cubic ones it
+/// is 1.08.
 [[nodiscard]] double step_bound(const Scene& scene);
 
+/// Longest explicit step on a grid that is stable for any arrangement of points, s; infinite for a scene of
+/// the MLSRK solver. No mode of all points is faster than the fastest one of a point that had the nodes
+/// around it for itself (stiffness and lumped mass are sums over points): of that, with sum_i N_i,a N_i,b /
+/// N_i = s / h^2 delta_ab, omega^2 = s C / (rho h^2) and the rate of decay is s V / (rho h^2), where C is the
+/// largest of d lambda + 2 mu (change of volume) and 2 mu (of form), V that of d zeta_v and 2 mu_v. s is at
+/// most 6 for quadratic splines and 3.137 for cubic ones, wherever the point is. A step from velocities of
+/// its start, which viscosity is taken at, is stable while omega^2 dt^2 / 4 + rate dt / 2 <= 1.
+[[nodiscard]] double lone_point_bound(const Scene& scene);
+
 /// The step before points are fast: fixed, or safety factor times `bound`, the scene's step_bound()
-/// (semi-implicit: times implicit_step_factor), at most max_time_step and a frame, s.
+/// (semi-implicit: times implicit_step_factor), at most max_time_step and a frame, s. An automatic explicit
+/// step is never beyond the share of the bound that lone_point_bound() is.
 [[nodiscard]] double planned_step(const Scene& scene, double bound);
 
 /// alpha of a step of length dt: flip_blend^(dt / flip_blend_reference_step), so that the blend acts per

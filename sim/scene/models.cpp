@@ -70,7 +70,7 @@ const Table<HerschelBulkleyParameters>& herschel_bulkley() {
       "an infinite yield_stress. The first three keys are required where no preset is named.",
       {required<P>("density", &P::density, density(), "mass per volume at rest"),
        required<P>("bulk_modulus", &P::bulk_modulus, modulus(), "stiffness against change of volume"),
-       required<P>("shear_modulus", &P::shear_modulus, number("Pa", from_to(1e-6, 1e13)),
+       required<P>("shear_modulus", &P::shear_modulus, number("Pa", from_to(1e-6, 1e15)),
                    "stiffness against change of form"),
        optional<P>("yield_stress", &P::yield_stress, number_or_infinity("Pa", from_to(0, 1e13)),
                    "sigma_Y: plastic flow starts where the shear stress norm reaches sqrt(2/3) of it"),

@@ -172,6 +172,7 @@ struct Numerics {
   double time_step = 0;                     ///< s; 0: from the step bound
   double safety_factor = 0.4;               ///< of the step bound, dimensionless
   double max_time_step = 1e30;              ///< s, of the automatic step
+  double allowed_energy_gain = 0.1;         ///< of a scene that nothing drives, over its energy at t = 0
   Integration integration = Integration::kExplicit;
   // Of the semi-implicit step only:
   double implicit_step_factor = 10;      ///< automatic step over the explicit one's, dimensionless

@@ -161,7 +161,7 @@ const Table<Scene>& scene() {
        optional<Scene>("gravity", &Scene::gravity, vector("m/s^2", from_to(-1e6, 1e6)),
                        "acceleration of all material"),
        required<Scene>("duration", &Scene::duration, number("s", above_to(0, 1e6)), "simulated time"),
-       optional<Scene>("frame_rate", &Scene::frame_rate, number("1/s", above_to(0, 1e6)),
+       optional<Scene>("frame_rate", &Scene::frame_rate, number("1/s", above_to(0, 1e30)),
                        "pictures per simulated second"),
        required<Scene>("spacing", &Scene::spacing, number("m", from_to(1e-6, 1e3)),
                        "cell width of the grid; with the solver \"mlsrk\", distance of the points"),

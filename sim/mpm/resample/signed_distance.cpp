@@ -32,8 +32,10 @@ SignedDistance::SignedDistance(const PointBins& bins, NearestKernel kernel, int 
   const auto nodes_of_block = static_cast<std::size_t>(lattice_.cells());
   for (std::size_t n = 0; n < nodes_of_block; ++n) {
     const auto at = static_cast<int>(n);
-    places_[n] = static_cast<float>(at / lattice_.depth / lattice_.width);
-    places_[nodes_of_block + n] = static_cast<float>(at / lattice_.depth % lattice_.width);
+    const int row = at / lattice_.depth;
+    const int plane = row / lattice_.width;
+    places_[n] = static_cast<float>(plane);
+    places_[nodes_of_block + n] = static_cast<float>(row % lattice_.width);
     places_[2 * nodes_of_block + n] = static_cast<float>(at % lattice_.depth);
   }
   const std::size_t count = bins.all_blocks().size();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
 namespace lather {
@@ -55,6 +56,34 @@ TEST(Obstacles, NearAPlaceAreThoseWithinTheRadius) {
     }
     EXPECT_GT(found, 500U);
   }
+}
+
+/// Velocity after contact with the walls of the scene above, of a point that then moves for `ahead` (s); none
+/// where nothing changes.
+std::optional<Vec3> after_walls(const std::string& boundary, const Vec3& x, Vec3 velocity, double ahead) {
+  Scene scene = scene_of_obstacles();
+  scene.domain.boundary = boundary == "stick" ? Boundary::kStick : Boundary::kSlip;
+  const WatchedContacts nobody;
+  const bool changed = Walls(scene).resolve(x, velocity, 1, ContactSink(nobody, nullptr), 0, ahead);
+  return changed ? std::optional<Vec3>(velocity) : std::nullopt;
+}
+
+TEST(Walls, APointComesToAFaceAndNoFarther) {
+  const Vec3 before_both(-0.98, 0.99, 0);  // 0.02 m before one face, 0.01 m before another
+  EXPECT_FALSE(after_walls("slip", before_both, {-1, 0.5, 0}, 0.01));
+  EXPECT_FALSE(after_walls("slip", before_both, {1, -0.5, 0}, 0.1));
+  EXPECT_TRUE(after_walls("slip", before_both, {-1, 0.5, 0.3}, 0.1).value().isApprox(Vec3(-0.2, 0.1, 0.3)));
+  EXPECT_TRUE(after_walls("stick", before_both, {-1, 0, 0.3}, 0.1).value().isApprox(Vec3(-0.2, 0, 0)));
+  EXPECT_FALSE(after_walls("stick", before_both, {-0.1, 0, 0.3}, 0.1));
+}
+
+TEST(Walls, HoldWhatIsAtThem) {
+  const Vec3 at(-1, 0, 0);
+  EXPECT_TRUE(after_walls("slip", at, {-1, 0.5, 0}, 0).value().isApprox(Vec3(0, 0.5, 0)));
+  EXPECT_TRUE(after_walls("slip", at, {-1, 0.5, 0}, 0.1).value().isApprox(Vec3(0, 0.5, 0)));
+  EXPECT_FALSE(after_walls("slip", at, {1, 0.5, 0}, 0.1));
+  EXPECT_TRUE(after_walls("stick", at, {1, 0.5, 0}, 0).value().isZero());
+  EXPECT_TRUE(after_walls("stick", at, {-1, 0.5, 0}, 0.1).value().isZero());
 }
 
 }  // namespace

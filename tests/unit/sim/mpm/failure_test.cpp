@@ -37,6 +37,38 @@ TEST(Failure, ATooLongStepStopsWithStepTimeQuantityAndAdvice) {
   EXPECT_FALSE(simulation->report().frames.empty());
 }
 
+/// The error that ends a block in free fall in steps of spacing / wave speed, which quadratic kernels in 2D
+/// do not bear.
+SimulationError::Details error_of_falling_block(const std::string& allowed_energy_gain) {
+  static const char* const kBlock = R"({
+    "lather": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [0.12, 0.12]}, "duration": 0.1, "frame_rate": 200,
+    "spacing": 0.01,
+    "materials": [{"name": "jelly", "model": "neo-hookean", "density": 1000, "youngs_modulus": 1e5,
+                   "poisson_ratio": 0}],
+    "bodies": [{"name": "block", "material": "jelly",
+                "shape": {"type": "box", "size": [0.06, 0.06], "translate": [0.05, 0.08]}}],
+    "numerics": {"kernel": "quadratic", "time_step": 1e-3}})";
+  const Scene scene = parse_scene(kBlock, "", {{"/numerics/allowed_energy_gain", allowed_energy_gain}});
+  const auto simulation = Simulation::create(make_plan(scene), 1);
+  try {
+    for (int i = 0; i <= scene.last_frame(); ++i)
+      simulation->step_to_frame(i, [](const Progress&) { return true; });
+  } catch (const SimulationError& e) {
+    return e.details();
+  }
+  return {};
+}
+
+TEST(Failure, EnergyThatNothingGaveEndsARunUnlessItIsAllowed) {
+  const SimulationError::Details gained = error_of_falling_block("0.1");
+  EXPECT_EQ(gained.kind, "energy");
+  EXPECT_NE(gained.advice.find("/numerics/time_step"), std::string::npos) << gained.advice;
+  EXPECT_NE(gained.advice.find("/numerics/allowed_energy_gain"), std::string::npos) << gained.advice;
+  const SimulationError::Details burst = error_of_falling_block("\"infinity\"");
+  EXPECT_NE(burst.kind, "energy");
+  EXPECT_TRUE(burst.kind.empty() || burst.step > gained.step) << burst.kind;
+}
+
 TEST(Failure, ASingleNotANumberIsSeenInTheSameStep) {
   const Plan plan = make_plan(parse_scene(testing_support::ball_scene()));
   const mpm::Model<float> model(plan);
