@@ -54,8 +54,8 @@ void expect_upright(const Matrix& matrix, const std::vector<Factor>& factors,
     EXPECT_NE(verdict.outcome, Outcome::kRefused) << verdict.why << "\n" << document;
     if (verdict.outcome == Outcome::kStopped) std::printf("%s\n", verdict.why.c_str());
   }
-  // A program that stops at whatever it is given would be upright, too: most must hold.
-  EXPECT_GE(3 * counts[0], 2 * static_cast<int>(choices.size()));
+  // A program that stops at whatever it is given would be upright, too: half of the scenes hold at the least.
+  EXPECT_GE(2 * counts[0], static_cast<int>(choices.size()));
   std::printf("%zu scenes of %zu factors: %d held, %d stopped with an error\n", choices.size(),
               factors.size(), counts[0], counts[2]);
 }
