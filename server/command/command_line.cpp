@@ -24,6 +24,7 @@ struct AllOptions {
   RheometerOptions rheometer;
   VerifyOptions verify;
   BenchOptions bench;
+  SoakOptions soak;
   bool version_json = false;
   int exit_code = 0;
 };
@@ -241,6 +242,23 @@ void add_bench(CLI::App& program, AllOptions& all) {
   command.callback([&all] { all.exit_code = bench_command(all.bench); });
 }
 
+void add_soak(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "soak",
+      "Run random scenes over all that a scene may hold, and see that none breaks what none may break");
+  SoakOptions& soak = all.soak;
+  command.add_option("--scenes", soak.scenes, "how many")->capture_default_str();
+  command.add_option("--seed", soak.seed, "the same scenes for the same number")->capture_default_str();
+  command.add_option("--first", soak.first, "index of the first one")->capture_default_str();
+  command.add_option("--steps", soak.most_steps, "most of each scene")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--keep", soak.keep,
+                     "directory for scenes that break, as files; without it they are printed");
+  command.add_flag("--json", soak.json, "the counts as JSON");
+  command.callback([&all] { all.exit_code = soak_command(all.soak); });
+}
+
 void add_rest(CLI::App& program, AllOptions& all) {
   CLI::App& version = *program.add_subcommand("version", "Print the version");
   version.add_flag("--json", all.version_json, "as JSON");
@@ -271,6 +289,7 @@ int parse_and_run(int argc, char** argv) {
   add_rheometer(program, all);
   add_verify(program, all);
   add_bench(program, all);
+  add_soak(program, all);
   add_rest(program, all);
   try {
     program.parse(argc, argv);

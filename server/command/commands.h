@@ -128,6 +128,17 @@ struct BenchOptions {
 };
 int bench_command(const BenchOptions& options);
 
+struct SoakOptions {
+  std::uint64_t scenes = 100;
+  std::uint64_t seed = 1;
+  std::uint64_t first = 0;         ///< index of the first scene: one of a seed alone is drawn by its index
+  std::uint64_t most_steps = 100;  ///< of each scene
+  std::filesystem::path keep;      ///< directory for the scenes that break; "": they go to stderr
+  bool json = false;
+};
+/// 0 if no scene breaks, else 1.
+int soak_command(const SoakOptions& options);
+
 int version_command(bool json);
 int schema_command();
 int reference_command();

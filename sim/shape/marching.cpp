@@ -13,7 +13,8 @@
 namespace lather::tessellation {
 namespace {
 
-constexpr double kMaxCells = 4e6;
+constexpr double kMaxNodes = 4e6;
+constexpr double kMargin = 4;  // nodes beyond the shape's extent along each axis
 
 /// Corner k of a cell is at (k & 1, k >> 1 & 1, k >> 2); each tetrahedron walks from corner 0 to corner 7
 /// along the axes.
@@ -25,14 +26,21 @@ class Marcher {
   Marcher(const Shape& shape, const Box3& world, double detail)
       : shape_(shape), clip_(is_unbounded(shape)), world_(world) {
     Box3 box = bounds(shape, world);
-    const Vec3 extent = box.extent().cwiseMax(detail);
-    width_ = std::max(detail, std::cbrt(extent.prod() / kMaxCells));
+    width_ = widest_detail(box.extent(), detail);
     origin_ =
         box.min - Vec3::Constant(1.37 * width_);  // off the lattice, so that flat faces do not hit nodes
     for (int i = 0; i < 3; ++i) {
       nodes_[static_cast<std::size_t>(i)] =
-          static_cast<std::int64_t>(std::ceil(box.extent()[i] / width_)) + 4;
+          static_cast<std::int64_t>(std::ceil(box.extent()[i] / width_) + kMargin);
     }
+  }
+
+  /// `detail`, or as much more as it takes for few enough nodes: long thin shapes have most of theirs in the
+  /// margin.
+  static double widest_detail(const Vec3& extent, double detail) {
+    double width = detail;
+    while (((extent / width).array().ceil() + kMargin).prod() > kMaxNodes) width *= 1.1;
+    return width;
   }
 
   TriangleMesh run() {

@@ -112,7 +112,7 @@ void PrintTo(const Named& named, std::ostream* out) {
 class Degenerate : public testing::TestWithParam<Named> {};
 
 TEST_P(Degenerate, StaysSound) {
-  const Verdict verdict = examine(block_scene(GetParam().solver, GetParam().scene.changes), kSteps);
+  const Verdict verdict = examine(block_scene(GetParam().solver, GetParam().scene.changes), {kSteps});
   EXPECT_EQ(verdict.outcome, Outcome::kHeld) << to_string(verdict.outcome) << ": " << verdict.why;
   EXPECT_GT(verdict.steps, 0U);
 }

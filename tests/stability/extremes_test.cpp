@@ -48,7 +48,7 @@ void expect_upright(const Matrix& matrix, const std::vector<Factor>& factors,
   std::array<int, 4> counts = {};
   for (const Choice& choice : choices) {
     const std::string document = write_json(extreme_scene(solver, model, factors, choice, kSteps));
-    const Verdict verdict = examine(parse_scene(document), 10 * kSteps);
+    const Verdict verdict = examine(parse_scene(document), {10 * kSteps});
     ++counts[static_cast<std::size_t>(verdict.outcome)];
     EXPECT_NE(verdict.outcome, Outcome::kBroken) << verdict.why << "\n" << document;
     EXPECT_NE(verdict.outcome, Outcome::kRefused) << verdict.why << "\n" << document;

@@ -9,6 +9,7 @@
 
 #include "sim/plan/plan.h"
 #include "sim/report/energy_balance.h"
+#include "sim/scene/sha256.h"
 #include "sim/simulation.h"
 
 namespace lather::study {
@@ -86,6 +87,24 @@ std::string gained_energy(const Scene& scene, const FrameMeasure& start, const F
                                                       : std::string();
 }
 
+std::string digest_of_points(const Simulation& simulation) {
+  std::string bytes;
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  simulation.visit_points([&](const PointState& p) {
+    add(p.id);
+    add(p.material);
+    for (int axis = 0; axis < 3; ++axis) {
+      add(p.position[axis]);
+      add(p.velocity[axis]);
+    }
+    add(p.stress);
+    add(p.concentration);
+  });
+  return sha256_hex(bytes);
+}
+
 }  // namespace
 
 const char* to_string(Outcome outcome) {
@@ -110,16 +129,17 @@ std::string unsoundness(const Scene& scene, const FrameMeasure& start, const Fra
   return wrong;
 }
 
-Verdict examine(const Scene& scene, std::uint64_t most_steps, int threads) {
+Verdict examine(const Scene& scene, const Examination& examination) {
   Verdict verdict;
   std::unique_ptr<Simulation> simulation;
   try {
     const Plan plan = make_plan(scene);
-    simulation = Simulation::create(plan, threads);
+    simulation = Simulation::create(plan, examination.threads);
     for (int index = 0; index < plan.frames; ++index) {
-      const bool arrived =
-          simulation->step_to_frame(index, [&](const Progress& p) { return p.step < most_steps; });
+      const bool arrived = simulation->step_to_frame(
+          index, [&](const Progress& p) { return p.step < examination.most_steps; });
       verdict.steps = simulation->report().steps;
+      verdict.states.push_back(digest_of_points(*simulation));
       if (!arrived) break;
       const std::vector<FrameMeasure>& frames = simulation->report().frames;
       const std::string wrong = unsoundness(scene, frames.front(), frames.back());
@@ -130,6 +150,11 @@ Verdict examine(const Scene& scene, std::uint64_t most_steps, int threads) {
         verdict.outcome = Outcome::kBroken;
         verdict.why = "frame " + std::to_string(index) + ": " + wrong;
         break;
+      }
+      if (examination.resumed) {
+        const std::string saved = simulation->save();
+        simulation = Simulation::create(plan, examination.threads);
+        simulation->restore(saved);
       }
     }
   } catch (const InputError& error) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "sim/report/report.h"
 #include "sim/scene/scene.h"
@@ -24,11 +25,17 @@ struct Verdict {
   std::string why;  ///< the error's words, or what is wrong with which frame
   std::uint64_t steps = 0;
   double most_energy = 0;  ///< of any frame, over that of the first one; 0 where there is none to compare
+  std::vector<std::string> states;  ///< SHA-256 of all points, at each frame and where the run ended
 };
 
-/// Runs the scene to its end, or for so many steps where fast points make them short, and judges each frame
-/// by unsoundness().
-[[nodiscard]] Verdict examine(const Scene& scene, std::uint64_t most_steps, int threads = 1);
+struct Examination {
+  std::uint64_t most_steps = 0;  ///< the run ends there, where fast points make its steps short
+  int threads = 1;
+  bool resumed = false;  ///< at each frame it is saved, and goes on in another simulation that is restored
+};
+
+/// Runs the scene to its end and judges each frame by unsoundness().
+[[nodiscard]] Verdict examine(const Scene& scene, const Examination& examination);
 
 /// What is wrong with a frame of a run that began with `start`, in words; "" if it is sound:
 /// - every figure is a number;

@@ -112,6 +112,14 @@ TEST(Mesh, OfACombinationWithAPlaneIsClippedToTheWorld) {
   for (const auto& p : mesh.positions) EXPECT_LE(wide(p).cwiseAbs().maxCoeff(), 1 + 1e-5);
 }
 
+// Cells as fine as the detail would be two thousand million, most of them in the margin around it.
+TEST(Mesh, OfALongThinUnionIsNoFinerThanItsLengthAllows) {
+  UnionShape pair;
+  pair.of = {make(SphereShape{0.01}), place(make(SphereShape{0.01}), {1e6, 0, 0})};
+  const TriangleMesh mesh = tessellate(*make(pair), kWorld, 5e-3);
+  EXPECT_LT(mesh.triangles.size(), 100'000U);
+}
+
 TEST(Mesh, OfAHugeCombinationStaysSmall) {
   const Shape shape{UnionShape{{make(SphereShape{1}), place(make(SphereShape{1}), {1, 0, 0})}, 0}};
   const TriangleMesh mesh = tessellate(shape, kWorld, 1e-6);

@@ -63,15 +63,16 @@ TEST(Unsoundness, LeavesEnergyAloneWhereSomethingGivesIt) {
 }
 
 TEST(Examine, TellsHowARunEnds) {
-  EXPECT_EQ(examine(scene_of({{"/duration", "0.02"}}), 1000).outcome, Outcome::kHeld);
-  EXPECT_EQ(examine(scene_of({{"/bodies/0/shape/translate", "[9, 9, 9]"}}), 1000).outcome, Outcome::kRefused);
+  EXPECT_EQ(examine(scene_of({{"/duration", "0.02"}}), {1000}).outcome, Outcome::kHeld);
+  EXPECT_EQ(examine(scene_of({{"/bodies/0/shape/translate", "[9, 9, 9]"}}), {1000}).outcome,
+            Outcome::kRefused);
   // Far beyond the step bound, onto the ground.
   const Verdict burst = examine(
       scene_of({{"/numerics/time_step", "5e-3"},
                 {"/gravity", "[0, -9.81, 0]"},
                 {"/duration", "2"},
                 {"/obstacles", R"([{"name": "ground", "shape": {"type": "plane"}, "friction": 0.5}])"}}),
-      100'000);
+      {100'000});
   EXPECT_EQ(burst.outcome, Outcome::kStopped);
   EXPECT_NE(burst.why.find("/numerics/time_step"), std::string::npos) << burst.why;
   EXPECT_GT(burst.steps, 0U);
