@@ -250,7 +250,7 @@ void add_soak(CLI::App& program, AllOptions& all) {
   command.add_option("--scenes", soak.scenes, "how many")->capture_default_str();
   command.add_option("--seed", soak.seed, "the same scenes for the same number")->capture_default_str();
   command.add_option("--first", soak.first, "index of the first one")->capture_default_str();
-  command.add_option("--steps", soak.most_steps, "most of each scene")
+  command.add_option("--steps", soak.most_steps, "of each scene, about, at most")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command.add_option("--keep", soak.keep,

@@ -45,7 +45,7 @@ namespace lather {
 
 /// The step before points are fast: fixed, or safety factor times `bound`, the scene's step_bound()
 /// (semi-implicit: times implicit_step_factor), at most max_time_step and a frame, s. An automatic explicit
-/// step is never beyond the share of the bound that lone_point_bound() is.
+/// step is never beyond 0.9 of lone_point_bound().
 [[nodiscard]] double planned_step(const Scene& scene, double bound);
 
 /// alpha of a step of length dt: flip_blend^(dt / flip_blend_reference_step), so that the blend acts per

@@ -59,8 +59,8 @@ const Table<Numerics>& numerics() {
            "safety_factor", &N::safety_factor, number("1", above_to(0, 1)),
            "automatic step over its bound, spacing over wave speed; with the solver \"mpm\" never beyond "
            "what "
-           "is stable for a point alone: 0.65 of the bound in 3D and 0.8 in 2D, with quadratic kernels "
-           "0.47 and 0.58, or more where shear counts"),
+           "is stable for a point alone: 0.59 of the bound in 3D and 0.72 in 2D, with quadratic kernels "
+           "0.43 and 0.52, or more where shear counts"),
        optional<N>("max_time_step", &N::max_time_step, number("s", above_to(0, kForever)),
                    "largest automatic step"),
        optional<N>("allowed_energy_gain", &N::allowed_energy_gain,

@@ -64,7 +64,7 @@ TEST(RandomScenes, HoldEveryFieldThatASceneMayHold) {
   int refusals = 0;
   constexpr int kScenes = 600;
   for (std::uint64_t i = 0; i < kScenes; ++i) {
-    const RandomScene random = random_scene(3, i);
+    const RandomScene random = random_scene(3, i, 100);
     refusals += random.refusals;
     add_keys(parse_json(random.document), drawn);
   }
@@ -77,9 +77,9 @@ TEST(RandomScenes, HoldEveryFieldThatASceneMayHold) {
 }
 
 TEST(RandomScenes, AreTheSameForTheSameSeedAndIndex) {
-  EXPECT_EQ(random_scene(5, 7).document, random_scene(5, 7).document);
-  EXPECT_NE(random_scene(5, 7).document, random_scene(5, 8).document);
-  EXPECT_NE(random_scene(5, 7).document, random_scene(6, 7).document);
+  EXPECT_EQ(random_scene(5, 7, 100).document, random_scene(5, 7, 100).document);
+  EXPECT_NE(random_scene(5, 7, 100).document, random_scene(5, 8, 100).document);
+  EXPECT_NE(random_scene(5, 7, 100).document, random_scene(6, 7, 100).document);
 }
 
 }  // namespace

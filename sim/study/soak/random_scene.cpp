@@ -62,6 +62,11 @@ Array vector_of(const Vec3& v, int dimension) {
   return numbers;
 }
 
+void set_duration(Value& document, double duration, double frames) {
+  set_at_pointer(document, "/duration", duration);
+  set_at_pointer(document, "/frame_rate", frames / duration);
+}
+
 /// The drawn document in its surroundings, and of a handful of frames.
 Value in_surroundings(Value document, const Surroundings& s, double frames) {
   for (const char* const key : {"/sizes", "/points_per_cell"}) set_at_pointer(document, key, nullptr);
@@ -69,8 +74,7 @@ Value in_surroundings(Value document, const Surroundings& s, double frames) {
   set_at_pointer(document, "/domain/min", vector_of(s.corner, s.dimension));
   set_at_pointer(document, "/domain/max", vector_of(s.corner + s.size, s.dimension));
   set_at_pointer(document, "/spacing", s.spacing);
-  set_at_pointer(document, "/duration", s.duration);
-  set_at_pointer(document, "/frame_rate", frames / s.duration);
+  set_duration(document, s.duration, frames);
   return document;
 }
 
@@ -108,20 +112,23 @@ const char* random_scene_mesh() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 }
 
-RandomScene random_scene(std::uint64_t seed, std::uint64_t index) {
+RandomScene random_scene(std::uint64_t seed, std::uint64_t index, std::uint64_t most_steps) {
   static const Value kSchema = schema_to_draw_from();
   RandomScene made;
   for (std::uint64_t document = 0; document < kMostDocuments; ++document) {
     const std::uint64_t which = index * kMostDocuments + document;
     const Surroundings s = random_surroundings(seed, which);
-    Value drawn = in_surroundings(random_document(kSchema, s, seed, which), s,
-                                  std::floor(1 + 4 * chance(seed, which, 9)));
+    const double frames = std::floor(1 + 4 * chance(seed, which, 9));
+    Value drawn = in_surroundings(random_document(kSchema, s, seed, which), s, frames);
     for (int change = 0; change < kMostChanges; ++change) {
       made.document = write_json(drawn, 2);
       try {
         made.scene = parse_scene(made.document, "", {}, mesh_bytes);
-        if (make_plan(made.scene).points <= kMostPoints) return made;
-        break;
+        const Plan plan = make_plan(made.scene);
+        if (plan.points > kMostPoints) break;
+        if (plan.steps <= most_steps) return made;
+        // A little less, so that steps that end at frames make it no more.
+        set_duration(drawn, 0.9 * static_cast<double>(most_steps) * plan.time_step, frames);
       } catch (const InputError& error) {
         ++made.refusals;
         if (!take_out(drawn, error.problems().front().pointer)) break;

@@ -18,10 +18,11 @@ struct RandomScene {
 /// The bytes of "mesh.obj".
 [[nodiscard]] const char* random_scene_mesh();
 
-/// Few points in a domain of at most 14 spacings each way, of all the rest whatever the schema allows. The
+/// Few points in a domain of at most 14 spacings each way, a handful of frames in `most_steps` planned steps
+/// at most, of all the rest whatever the schema allows. The
 /// same for the same seed and index. What the program refuses in a drawn document is taken out, by the
 /// pointers of its errors; where nothing is left of it another one is drawn. Throws std::logic_error when a
 /// hundred documents led to no scene.
-[[nodiscard]] RandomScene random_scene(std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] RandomScene random_scene(std::uint64_t seed, std::uint64_t index, std::uint64_t most_steps);
 
 }  // namespace lather::study

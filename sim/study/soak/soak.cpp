@@ -9,8 +9,8 @@ namespace {
 std::string difference(const Verdict& run, const Verdict& twin) {
   if (run.outcome != twin.outcome || run.why != twin.why)
     return std::string("it ") + to_string(twin.outcome) + " there: " + twin.why;
-  for (std::size_t i = 0; i < run.states.size(); ++i)
-    if (run.states[i] != twin.states[i]) return "other points at frame " + std::to_string(i);
+  for (std::size_t i = 0; i < run.fingerprints.size(); ++i)
+    if (run.fingerprints[i] != twin.fingerprints.at(i)) return "other points at frame " + std::to_string(i);
   return {};
 }
 
@@ -24,7 +24,7 @@ std::string reads_back_otherwise(const RandomScene& random) {
 
 Soaked soak(std::uint64_t seed, std::uint64_t index, std::uint64_t most_steps) {
   Soaked soaked;
-  soaked.scene = random_scene(seed, index);
+  soaked.scene = random_scene(seed, index, most_steps);
   const Scene& scene = soaked.scene.scene;
   soaked.verdict = examine(scene, {most_steps, 1, false});
   if (soaked.verdict.outcome == Outcome::kBroken) return soaked;

@@ -14,8 +14,8 @@ struct Soaked {
   Verdict verdict;
 };
 
-/// Draws a scene and examines it for at most `most_steps` steps: every frame sound (see unsoundness()); the
-/// scene written out reads back as itself; and its points the same, bit for bit, where it runs with two
+/// Draws a scene of about `most_steps` steps at most and examines it: every frame sound (see unsoundness());
+/// the scene written out reads back as itself; and its points the same, bit for bit, where it runs with two
 /// threads and is saved and restored at every frame.
 [[nodiscard]] Soaked soak(std::uint64_t seed, std::uint64_t index, std::uint64_t most_steps);
 

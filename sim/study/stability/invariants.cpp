@@ -9,7 +9,6 @@
 
 #include "sim/plan/plan.h"
 #include "sim/report/energy_balance.h"
-#include "sim/scene/sha256.h"
 #include "sim/simulation.h"
 
 namespace lather::study {
@@ -87,24 +86,6 @@ std::string gained_energy(const Scene& scene, const FrameMeasure& start, const F
                                                       : std::string();
 }
 
-std::string digest_of_points(const Simulation& simulation) {
-  std::string bytes;
-  const auto add = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  simulation.visit_points([&](const PointState& p) {
-    add(p.id);
-    add(p.material);
-    for (int axis = 0; axis < 3; ++axis) {
-      add(p.position[axis]);
-      add(p.velocity[axis]);
-    }
-    add(p.stress);
-    add(p.concentration);
-  });
-  return sha256_hex(bytes);
-}
-
 }  // namespace
 
 const char* to_string(Outcome outcome) {
@@ -139,9 +120,9 @@ Verdict examine(const Scene& scene, const Examination& examination) {
       const bool arrived = simulation->step_to_frame(
           index, [&](const Progress& p) { return p.step < examination.most_steps; });
       verdict.steps = simulation->report().steps;
-      verdict.states.push_back(digest_of_points(*simulation));
       if (!arrived) break;
       const std::vector<FrameMeasure>& frames = simulation->report().frames;
+      verdict.fingerprints.push_back(frames.back().fingerprint);
       const std::string wrong = unsoundness(scene, frames.front(), frames.back());
       const double was = total_energy(scene, frames.front());
       if (was > 0)

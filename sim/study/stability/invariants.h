@@ -25,7 +25,7 @@ struct Verdict {
   std::string why;  ///< the error's words, or what is wrong with which frame
   std::uint64_t steps = 0;
   double most_energy = 0;  ///< of any frame, over that of the first one; 0 where there is none to compare
-  std::vector<std::string> states;  ///< SHA-256 of all points, at each frame and where the run ended
+  std::vector<std::uint64_t> fingerprints;  ///< of all points, frame by frame
 };
 
 struct Examination {

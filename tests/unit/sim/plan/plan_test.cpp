@@ -217,9 +217,9 @@ TEST(StepBound, OfALonePointIsThatOfItsFastestMode) {
       // s is rounded up by less than a thousandth (the quadratic kernel tends to 6 and does not reach it).
       EXPECT_LE(lone_point_bound(scene), bound);
       EXPECT_NEAR(lone_point_bound(scene), bound, 1e-3 * bound);
-      // So long is an automatic step at the most, and shorter ones stay as they are.
+      // An automatic step is 0.9 of it at the most, and shorter ones stay as they are.
       EXPECT_DOUBLE_EQ(planned_step(scene, step_bound(scene)),
-                       std::min(lone_point_bound(scene), step_bound(scene)));
+                       std::min(0.9 * lone_point_bound(scene), step_bound(scene)));
       Scene careful = scene;
       careful.numerics.safety_factor = 0.4;
       EXPECT_DOUBLE_EQ(planned_step(careful, step_bound(careful)), 0.4 * step_bound(careful));
