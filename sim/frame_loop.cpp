@@ -80,6 +80,12 @@ void FrameLoop::check(const StepExtremes& seen, const Moment& start, double dt) 
     d.quantity = "a point's speed";
     d.value =
         with_unit(seen.max_speed, "m/s") + " (" + with_unit(seen.largest_cells, "cells in one step") + ")";
+  } else if (seen.carried_out) {
+    d.kind = "grip";
+    d.quantity = "a point that a grip drives";
+    d.value = "outside the domain";
+    d.advice = "End the grip earlier (/grips), move it less far, or enlarge /domain.";
+    throw SimulationError(d);
   } else {
     return;
   }

@@ -15,12 +15,14 @@ struct StepExtremes {
   double max_speed = 0;      ///< m/s
   bool finite = true;        ///< of every velocity and deformation
   bool collapsed = false;    ///< some J <= 0
+  bool carried_out = false;  ///< a grip takes some point through a closed face of the domain
 
   void include(const StepExtremes& other) {
     largest_cells = std::max(largest_cells, other.largest_cells);
     max_speed = std::max(max_speed, other.max_speed);
     finite = finite && other.finite;
     collapsed = collapsed || other.collapsed;
+    carried_out = carried_out || other.carried_out;
   }
 };
 

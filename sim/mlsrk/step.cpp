@@ -22,14 +22,15 @@ StepExtremes Stepper<Real>::step(State<Real>& state, double dt) {
   obstacles_.place(state.time, dt);
   grips_.place(state.time, dt);
   find_neighbours(state);
-  state.regularized += compute_shape_functions();      // [MLSRK eq. 8, 32]
-  if (model_.swells) weigh_crowding(state);            // [MLSRK eq. 19, 30]
-  if (model_.corrects) fill_solids();                  // [MLSRK eq. 19]
-  compute_stress(state);                               // [MLSRK eq. 19, 22, 23]
-  update_velocities(state, dt);                        // [MLSRK eq. 11]
-  compute_gradients();                                 // [MLSRK eq. 12, 18]
-  if (model_.scene.has_phases()) diffuse(state, dt);   // [MLSRK eq. 13-16, 30, 31]
-  const StepExtremes seen = update_points(state, dt);  // [MLSRK eq. 17, 24-29]
+  state.regularized += compute_shape_functions();     // [MLSRK eq. 8, 32]
+  if (model_.swells) weigh_crowding(state);           // [MLSRK eq. 19, 30]
+  if (model_.corrects) fill_solids();                 // [MLSRK eq. 19]
+  compute_stress(state);                              // [MLSRK eq. 19, 22, 23]
+  const bool inside = update_velocities(state, dt);   // [MLSRK eq. 11]
+  compute_gradients();                                // [MLSRK eq. 12, 18]
+  if (model_.scene.has_phases()) diffuse(state, dt);  // [MLSRK eq. 13-16, 30, 31]
+  StepExtremes seen = update_points(state, dt);       // [MLSRK eq. 17, 24-29]
+  seen.carried_out = !inside;
   state.drift += seen.largest_cells;
   state.max_speed = seen.max_speed;
   state.time += dt;
@@ -179,8 +180,9 @@ void Stepper<Real>::compute_stress(State<Real>& state) {
                                  [](double& most, double part) { most = std::max(most, part); });
 }
 
+/// False where a grip takes a point through a face of the domain.
 template <class Real>
-void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
+bool Stepper<Real>::update_velocities(State<Real>& state, double dt) {
   const Scene& scene = model_.scene;
   MomentumStep<Real> step{};
   step.dt = static_cast<Real>(dt);
@@ -190,6 +192,7 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
   struct Seen {
     double change_squared = 0;
     std::uint64_t light = 0;
+    bool inside = true;
   };
   const auto one_tile = [&](std::int64_t index) {
     const auto t = static_cast<std::size_t>(index);
@@ -197,7 +200,7 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
     clock_.time(Stage::kMomentum, [&] { seen.change_squared = accelerate(t, step, scratch(), seen.light); });
     clock_.time(Stage::kParticleCollisions, [&] {
       resolve_collisions(t, dt, scratch());
-      if (!grips_.none()) drive_points(t);
+      if (!grips_.none()) seen.inside = drive_points(t, dt);
     });
     return seen;
   };
@@ -205,9 +208,11 @@ void Stepper<Real>::update_velocities(State<Real>& state, double dt) {
                                   one_tile, [](Seen& sum, const Seen& part) {
                                     sum.change_squared = std::max(sum.change_squared, part.change_squared);
                                     sum.light += part.light;
+                                    sum.inside = sum.inside && part.inside;
                                   });
   state.light += seen.light;
   state.max_acceleration = std::sqrt(seen.change_squared) / dt;
+  return seen.inside;
 }
 
 /// Returns the largest squared change of a velocity that no grip prescribes, (m/s)^2.
@@ -318,7 +323,8 @@ StepExtremes Stepper<Real>::update_points(State<Real>& state, double dt) {
       model_.laws[at.set].deform(tile, move.dt, gradient);
     });
     clock_.time(Stage::kPositions, [&] { seen = model_.positions(tile, move, moved, smooth); });
-    return StepExtremes{seen.largest_cells, std::sqrt(seen.speed_squared), seen.finite, seen.collapsed};
+    return StepExtremes{seen.largest_cells, std::sqrt(seen.speed_squared), seen.finite, seen.collapsed,
+                        false};
   };
   return parallel_fold(threads_, static_cast<std::int64_t>(set_tiles_.size()), StepExtremes{}, one_tile,
                        [](StepExtremes& sum, const StepExtremes& part) { sum.include(part); });

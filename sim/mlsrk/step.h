@@ -97,10 +97,10 @@ class Stepper {
   void weigh_crowding(State<Real>& state);
   void fill_solids();
   void compute_stress(State<Real>& state);
-  void update_velocities(State<Real>& state, double dt);
+  bool update_velocities(State<Real>& state, double dt);
   double accelerate(std::size_t tile, const MomentumStep<Real>& step, Scratch& scratch, std::uint64_t& light);
   void resolve_collisions(std::size_t tile, double dt, Scratch& scratch);
-  void drive_points(std::size_t tile);
+  bool drive_points(std::size_t tile, double dt);
   void compute_gradients();
   void diffuse(State<Real>& state, double dt);
   void show_concentrations(State<Real>& state);

@@ -1,5 +1,8 @@
 // What walls, obstacles and grips do to points in a step.
 
+#include <algorithm>
+#include <limits>
+
 #include "sim/math/parallel.h"
 #include "sim/mlsrk/layers_behind.h"
 #include "sim/mlsrk/step.h"
@@ -61,23 +64,31 @@ void Stepper<Real>::resolve_collisions(std::size_t tile, double dt, Scratch& scr
   }
 }
 
-/// Gives the points of grips their prescribed velocities.
+/// Gives the points of grips their prescribed velocities. False where one passes a face of the domain.
 template <class Real>
-void Stepper<Real>::drive_points(std::size_t tile) {
+bool Stepper<Real>::drive_points(std::size_t tile, double dt) {
+  const Box3& box = model_.scene.domain.box;
+  const double rounding =
+      static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+      std::max({box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff(), model_.scene.spacing});
+  bool inside = true;
   const std::size_t first = tile * kTile;
   for (std::size_t slot = first; slot < first + static_cast<std::size_t>(cloud_.tiles()[tile].count);
        ++slot) {
     if (!driven(slot)) continue;
-    const Vec3 v = grips_.velocity(grip_[slot], cloud_.position(static_cast<std::uint32_t>(slot)));
+    const Vec3 x = cloud_.position(static_cast<std::uint32_t>(slot));
+    const Vec3 v = grips_.velocity(grip_[slot], x);
     for (int a = 0; a < model_.scene.dimension; ++a) velocity(slot, a) = static_cast<Real>(v[a]);
+    model_.walls.for_faces(x + dt * v, [&](double before) { inside = inside && before >= -rounding; });
   }
+  return inside;
 }
 
 template void Stepper<float>::fill_solids();
 template void Stepper<double>::fill_solids();
 template void Stepper<float>::resolve_collisions(std::size_t, double, Scratch&);
 template void Stepper<double>::resolve_collisions(std::size_t, double, Scratch&);
-template void Stepper<float>::drive_points(std::size_t);
-template void Stepper<double>::drive_points(std::size_t);
+template bool Stepper<float>::drive_points(std::size_t, double);
+template bool Stepper<double>::drive_points(std::size_t, double);
 
 }  // namespace lather::mlsrk

@@ -143,6 +143,22 @@ TEST_P(MlsrkGrips, RunsAreBitEqualForAnyNumberOfThreadsAndAfterARestore) {
   testing_support::expect_bit_equal_after_restore(make_plan(parse_scene(block(GetParam(), turned))), 1, 3);
 }
 
+TEST_P(MlsrkGrips, OneThatTakesPointsOutOfTheDomainEndsTheRunUnlessItIsOpen) {
+  // The block's face at x = 0.7 reaches the domain's at 1 after 0.15 s.
+  const std::string scene =
+      block(GetParam(),
+            R"([{"name": "hand", "body": "block", "motion": {"type": "linear", "velocity": [2, 0, 0]}}])");
+  try {
+    (void)run(scene);
+    ADD_FAILURE() << "The run went on.";
+  } catch (const SimulationError& error) {
+    EXPECT_EQ(error.details().kind, "grip");
+    EXPECT_NEAR(error.details().time, 0.15,
+                0.02);  // jitter moves points by up to a fifth of the spacing, 0.005 s
+  }
+  EXPECT_GT(run(scene, {{"/domain/boundary", "open"}}).frames.back().points_left, 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, MlsrkGrips, testing::Values(2, 3),
                          [](const auto& c) { return std::to_string(c.param) + "D"; });
 
