@@ -46,7 +46,7 @@ spng_text text_chunk(const char* keyword, std::string& text, bool utf8) {
 class TextChunks {
  public:
   explicit TextChunks(const PngText& text)
-      : name_(text.scene_name), hash_(text.scene_hash), version_(text.version) {
+      : name_(text.scene_name), hash_(text.scene_hash), version_(text.version), scene_(text.scene_json) {
     std::array<char, 32> time{};
     std::snprintf(time.data(), time.size(), "%.9g", text.time);
     time_ = time.data();
@@ -56,6 +56,8 @@ class TextChunks {
     add("lather:version", version_, false);
     add("lather:time", time_, false);
     add("lather:frame", frame_, false);
+    add("lather:scene-json", scene_, true);
+    if (!scene_.empty()) chunks_[count_ - 1].compression_flag = 1;
   }
   TextChunks(const TextChunks&) = delete;
   TextChunks& operator=(const TextChunks&) = delete;
@@ -70,8 +72,8 @@ class TextChunks {
     if (!value.empty()) chunks_[count_++] = text_chunk(keyword, value, utf8);
   }
 
-  std::string name_, hash_, version_, time_, frame_;
-  std::array<spng_text, 5> chunks_{};
+  std::string name_, hash_, version_, time_, frame_, scene_;
+  std::array<spng_text, 6> chunks_{};
   std::uint32_t count_ = 0;
 };
 

@@ -27,13 +27,14 @@ struct Image {
 };
 
 /// What a PNG says about itself, one text chunk each: "lather:scene", "lather:version", "Title",
-/// "lather:time", "lather:frame".
+/// "lather:time", "lather:frame", and compressed "lather:scene-json".
 struct PngText {
   std::string scene_hash;
   std::string version;
   std::string scene_name;
   double time = 0;  ///< s
   int frame = 0;
+  std::string scene_json = {};  ///< the scene in full, so that the picture can be made again
 };
 
 /// How long the last picture took, by pass, in the order of drawing: name and seconds.

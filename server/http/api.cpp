@@ -73,6 +73,9 @@ void Api::add_other_routes() {
   add("POST", api_path("/plan"),
       [this](const HttpRequest& request, const Captures&) { return post_plan(request); });
   add("GET", api_path("/scenes"), [this](const HttpRequest&, const Captures&) { return list_scenes(); });
+  // Before the scenes themselves, whose pattern takes every name.
+  add("GET", api_path("/scenes/{}.jpg"),
+      [this](const HttpRequest& request, const Captures& at) { return get_scene_picture(request, at[0]); });
   add("GET", api_path("/scenes/{}"),
       [this](const HttpRequest&, const Captures& at) { return get_scene(at[0]); });
   add("GET", api_path("/schema"),
@@ -80,8 +83,10 @@ void Api::add_other_routes() {
   add("GET", api_path("/materials"),
       [](const HttpRequest&, const Captures&) { return json_response(200, material_cards()); });
   add("GET", "/healthz", [this](const HttpRequest&, const Captures&) { return health(); });
-  add("GET", "/", [](const HttpRequest&, const Captures&) { return page_response("index.html"); });
-  add("GET", "/{}", [](const HttpRequest&, const Captures& at) { return page_response(at[0]); });
+  add("GET", "/",
+      [](const HttpRequest& request, const Captures&) { return page_response(request, "index.html"); });
+  add("GET", "/{}",
+      [](const HttpRequest& request, const Captures& at) { return page_response(request, at[0]); });
 }
 
 HttpResponse json_response(int status, std::string json) {

@@ -64,6 +64,7 @@ class Api {
   [[nodiscard]] HttpResponse post_plan(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse list_scenes() const;
   [[nodiscard]] HttpResponse get_scene(const std::string& name) const;
+  [[nodiscard]] HttpResponse get_scene_picture(const HttpRequest& request, const std::string& name) const;
   [[nodiscard]] HttpResponse health();
 
   Store& store_;

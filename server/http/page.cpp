@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "server/artifacts/digest.h"
 #include "server/http/page_files.h"
 #include "server/http/problem.h"
 
@@ -15,17 +16,25 @@ const char* media_type(std::string_view name) {
   if (end == "js") return "text/javascript; charset=utf-8";
   if (end == "css") return "text/css; charset=utf-8";
   if (end == "svg") return "image/svg+xml";
+  if (end == "txt") return "text/plain; charset=utf-8";
   return "application/octet-stream";
 }
 
 }  // namespace
 
-HttpResponse page_response(const std::string& name) {
+HttpResponse page_response(const HttpRequest& request, const std::string& name) {
   for (const PageFile& file : page_files()) {
     if (name != file.name) continue;
     HttpResponse response;
-    response.content_type = media_type(name);
-    response.body = std::string(reinterpret_cast<const char*>(file.bytes), file.size);
+    const std::string bytes(reinterpret_cast<const char*>(file.bytes), file.size);
+    const std::string tag = '"' + sha256_hex(bytes) + '"';
+    if (request.header("if-none-match").find(tag) != std::string::npos) {
+      response.status = 304;
+    } else {
+      response.content_type = media_type(name);
+      response.body = bytes;
+    }
+    response.headers.emplace_back("ETag", tag);
     response.headers.emplace_back("Cache-Control", "no-cache");
     return response;
   }

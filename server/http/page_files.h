@@ -11,7 +11,7 @@ struct PageFile {
   std::size_t size;
 };
 
-/// The files of web/; the source is made at build time (embed.cmake).
+/// The files of web/dist/; the source is made at build time (embed.cmake).
 [[nodiscard]] const std::vector<PageFile>& page_files();
 
 }  // namespace lather::server

@@ -81,10 +81,11 @@ void RenderThread::main() {
       ready_ = true;
       changed_.notify_all();
     }
+    const std::string scene_json = to_json(scene_);
     Frame frame;
     while (take(frame)) {
       const auto start = Clock::now();
-      const render::PngText text = {scene_hash_, version(), scene_.name, frame.time, frame.index};
+      const render::PngText text = {scene_hash_, version(), scene_.name, frame.time, frame.index, scene_json};
       write(frame, renderer->draw_png(frame, text));
       seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
     }

@@ -37,6 +37,16 @@ TEST(Png, TextChunksTellSceneVersionNameTimeAndFrame) {
   EXPECT_EQ(texts.at("lather:frame"), "42");
 }
 
+TEST(Png, TheSceneIsKeptWhole) {
+  PngText text = kText;
+  text.scene_json = R"({"name": "Rasierschaum \u00fc )" + std::string(20'000, 'a') + "\"}";
+  const std::string png = encode_png(pattern(8, 8), text);
+  const auto list = png_text(png);
+  const std::map<std::string, std::string> texts(list.begin(), list.end());
+  EXPECT_EQ(texts.at("lather:scene-json"), text.scene_json);
+  EXPECT_LT(png.size(), 2'000U);  // compressed
+}
+
 TEST(Png, EmptyTextsAreLeftOut) {
   const auto texts = png_text(encode_png(pattern(8, 8), {"", "", "", 0, 0}));
   EXPECT_EQ(texts.size(), 2U);  // time and frame
