@@ -49,8 +49,8 @@ class Simulation {
   /// Every point of the present state, in an order that no number of threads changes.
   virtual void visit_points(const std::function<void(const PointState&)>& visit) const = 0;
 
-  /// The whole state as bytes, and back; bit-equal onwards. Throws InputError for another plan's or build's
-  /// bytes.
+  /// The whole state as bytes, and back; bit-equal onwards. A plan that differs in its scene's duration alone
+  /// takes them, too. Throws InputError for another plan's or version's bytes, and is of no use then.
   [[nodiscard]] virtual std::string save() const = 0;
   virtual void restore(const std::string& bytes) = 0;
 };

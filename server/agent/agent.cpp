@@ -11,10 +11,15 @@ namespace lather::server {
 namespace {
 
 constexpr auto kPollInterval = std::chrono::milliseconds(500);
+constexpr auto kGiveBackPause = std::chrono::seconds(1);
 
 }  // namespace
 
-Agent::Agent(Store& store, AgentSettings settings) : store_(store), settings_(std::move(settings)) {
+Agent::Agent(Store& store, AgentSettings settings, Counters& counters)
+    : store_(store), settings_(std::move(settings)), counters_(counters) {
+  for (const char* name : {"lather_frames_total", "lather_checkpoints_total", "lather_point_steps_total",
+                           "lather_attempt_seconds_count", "lather_attempt_seconds_sum"})
+    counters_.add(name, 0);  // there from the start
   for (int i = 0; i < settings_.workers; ++i) workers_.emplace_back([this] { work(); });
   if (workers_.empty()) workers_.emplace_back([this] { reclaim(); });
 }
@@ -35,13 +40,27 @@ bool Agent::cancel(const std::string& id) {
     const std::optional<Job> job = store_.find(id);
     if (!job || has_ended(job->state)) return false;
     if (job->state == JobState::kCancelling) return true;
-    const bool queued = job->state == JobState::kQueued;
-    if (store_.move(id, queued ? JobState::kCancelled : JobState::kCancelling)) break;
+    if (store_.move(id, is_at_work(job->state) ? JobState::kCancelling : JobState::kCancelled)) break;
   }
+  look(id);
+  return true;
+}
+
+bool Agent::pause(const std::string& id) {
+  while (true) {  // as above
+    const std::optional<Job> job = store_.find(id);
+    if (!job || has_ended(job->state) || job->state == JobState::kCancelling) return false;
+    if (job->state == JobState::kPausing || job->state == JobState::kPaused) return true;
+    if (store_.move(id, is_at_work(job->state) ? JobState::kPausing : JobState::kPaused)) break;
+  }
+  look(id);
+  return true;
+}
+
+void Agent::look(const std::string& id) {
   const std::lock_guard lock(mutex_);
   for (const std::shared_ptr<Attempt>& attempt : running_)
-    if (attempt->id() == id) attempt->cancel();
-  return true;
+    if (attempt->id() == id) attempt->look();
 }
 
 void Agent::stop() {
@@ -60,10 +79,27 @@ void Agent::work() {
     try {
       attempt->run();
     } catch (const std::exception& failure) {
-      // The store cannot be written: the job stays `running` there until its lease ends.
       spdlog::error("job {}: {}", attempt->id(), failure.what());
+      give_back(*attempt, failure.what());
     }
     drop(attempt);
+  }
+}
+
+/// The store could not be read or written. The job would stay `running` there without anyone at work on it,
+/// so it is tried until the store can be written again, or knows the attempt no more.
+void Agent::give_back(Attempt& attempt, const std::string& why) {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    lock.unlock();
+    try {
+      attempt.lose(why);
+      return;
+    } catch (const std::exception& failure) {
+      spdlog::error("job {} cannot be given back: {}", attempt.id(), failure.what());
+    }
+    lock.lock();
+    changed_.wait_for(lock, kGiveBackPause, [this] { return stopping_; });
   }
 }
 
@@ -98,7 +134,7 @@ std::shared_ptr<Attempt> Agent::take() {
 }
 
 std::shared_ptr<Attempt> Agent::start(const Job& job) {
-  auto attempt = std::make_shared<Attempt>(store_, job, settings_);
+  auto attempt = std::make_shared<Attempt>(store_, job, settings_, counters_);
   const std::lock_guard lock(mutex_);
   running_.push_back(attempt);
   if (stopping_) attempt->abandon();

@@ -17,7 +17,7 @@ namespace lather::server {
 /// Without workers it still sees to it that the jobs of lost agents are queued again.
 class Agent {
  public:
-  Agent(Store& store, AgentSettings settings);
+  Agent(Store& store, AgentSettings settings, Counters& counters);
   ~Agent();  ///< stops
   Agent(const Agent&) = delete;
   Agent& operator=(const Agent&) = delete;
@@ -27,11 +27,17 @@ class Agent {
   /// Asks for a job's end; it is over within two seconds. False when it has ended before, or there is none.
   bool cancel(const std::string& id);
 
-  /// Ends all runners, queues their jobs again, and waits for that.
+  /// Asks a job to rest: a queued one does at once, one at work when its checkpoint is written, which frees
+  /// its worker. True also when it rests already; false when it is cancelling or has ended, or there is none.
+  bool pause(const std::string& id);
+
+  /// Has all runners write a checkpoint and end, queues their jobs again, and waits for that.
   void stop();
 
  private:
   void work();
+  void give_back(Attempt& attempt, const std::string& why);
+  void look(const std::string& id);
   void reclaim();
   [[nodiscard]] std::shared_ptr<Attempt> take();  // waits for a job; null once stopping
   [[nodiscard]] std::shared_ptr<Attempt> start(const Job& job);
@@ -39,6 +45,7 @@ class Agent {
 
   Store& store_;
   const AgentSettings settings_;
+  Counters& counters_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;  // guarded by mutex_, as are the next two

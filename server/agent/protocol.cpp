@@ -28,8 +28,16 @@ Json json_of(const FrameFile& f) {
   return {{"event", "frame"}, {"index", f.index}, {"file", f.file}, {"sha256", f.sha256}, {"size", f.size}};
 }
 
+Json json_of(const CheckpointFile& c) {
+  return {{"event", "checkpoint"}, {"step", c.step}, {"time", c.time}, {"size", c.size}};
+}
+
+Json json_of(const RunnerAlive&) {
+  return {{"event", "alive"}};
+}
+
 Json json_of(const RunnerResult& r) {
-  return {{"event", "result"}, {"state", r.state}, {"error", r.error}};
+  return {{"event", "result"}, {"state", r.state}, {"error", r.error}, {"cause", r.cause}};
 }
 
 RunProgress progress_of(const Json& json) {
@@ -54,8 +62,17 @@ FrameFile frame_of(const Json& json) {
   return f;
 }
 
+CheckpointFile checkpoint_of(const Json& json) {
+  CheckpointFile c;
+  json.at("step").get_to(c.step);
+  json.at("time").get_to(c.time);
+  json.at("size").get_to(c.size);
+  return c;
+}
+
 RunnerResult result_of(const Json& json) {
-  return {json.at("state").get<std::string>(), json.at("error").get<std::string>()};
+  return {json.at("state").get<std::string>(), json.at("error").get<std::string>(),
+          json.at("cause").get<std::string>()};
 }
 
 }  // namespace
@@ -66,6 +83,8 @@ std::string to_line(const RunnerOrder& order) {
                   {"threads", order.threads},
                   {"render_backend", order.render_backend},
                   {"memory_limit", order.memory_limit},
+                  {"checkpoint_seconds", order.checkpoint_seconds},
+                  {"resume_from", order.resume_from},
                   {"particles", order.particles}});
 }
 
@@ -81,6 +100,8 @@ RunnerOrder order_from_line(std::string_view line) {
   json.at("threads").get_to(order.threads);
   json.at("render_backend").get_to(order.render_backend);
   json.at("memory_limit").get_to(order.memory_limit);
+  json.at("checkpoint_seconds").get_to(order.checkpoint_seconds);
+  json.at("resume_from").get_to(order.resume_from);
   json.at("particles").get_to(order.particles);
   return order;
 }
@@ -91,6 +112,8 @@ std::optional<RunnerEvent> event_from_line(std::string_view line) {
     const std::string kind = json.at("event").get<std::string>();
     if (kind == "progress") return progress_of(json);
     if (kind == "frame") return frame_of(json);
+    if (kind == "checkpoint") return checkpoint_of(json);
+    if (kind == "alive") return RunnerAlive{};
     if (kind == "result") return result_of(json);
   } catch (const Json::exception&) {
     return std::nullopt;

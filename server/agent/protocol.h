@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "server/run/run.h"
 
@@ -17,20 +18,28 @@ struct RunnerOrder {
   std::string directory;  ///< of the attempt
   int threads = 0;
   std::string render_backend = "auto";
-  std::uint64_t memory_limit = 0;  ///< of the address space, bytes; 0: none
-  std::string particles;           ///< directory of kept ones to draw again; "": the plan is simulated
+  std::uint64_t memory_limit = 0;        ///< of the address space, bytes; 0: none
+  double checkpoint_seconds = 60;        ///< between two checkpoints; see RunSettings
+  std::vector<std::string> resume_from;  ///< checkpoints to go on from, the best first
+  std::vector<std::string>
+      particles;  ///< directories of kept ones to draw again; none: the plan is simulated
 };
 
-/// Down, at most once, after the order.
+/// Down, at most once each, after the order.
 inline constexpr std::string_view kCancelLine = "{\"cancel\":true}\n";
+inline constexpr std::string_view kPauseLine = "{\"pause\":true}\n";
+
+/// Up, about once a second: the runner can still be reached.
+struct RunnerAlive {};
 
 /// Up, last and once.
 struct RunnerResult {
-  std::string state;  ///< "succeeded", "failed", "cancelled"
+  std::string state;  ///< "succeeded", "failed", "cancelled", "paused"
   std::string error;
+  std::string cause;  ///< of a failure, for the counters: "simulation", "memory", "files", "input", "other"
 };
 
-using RunnerEvent = std::variant<RunProgress, FrameFile, RunnerResult>;
+using RunnerEvent = std::variant<RunProgress, FrameFile, CheckpointFile, RunnerAlive, RunnerResult>;
 
 /// With the newline at its end.
 [[nodiscard]] std::string to_line(const RunnerOrder& order);

@@ -4,15 +4,20 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include "server/agent/line_socket.h"
 #include "server/agent/protocol.h"
@@ -38,12 +43,20 @@ void limit_process(std::uint64_t memory) {
 class EventsUp final : public RunEvents {
  public:
   explicit EventsUp(const LineSocket& up) : up_(up) {}
-  void progress(const RunProgress& progress) override { up_.send(to_line(RunnerEvent(progress))); }
-  void frame(const FrameFile& frame) override { up_.send(to_line(RunnerEvent(frame))); }
+  void progress(const RunProgress& progress) override { send(progress); }
+  void frame(const FrameFile& frame) override { send(frame); }
+  void checkpoint(const CheckpointFile& checkpoint) override { send(checkpoint); }
   void log(const std::string& line) override { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+  void send(const RunnerEvent& event) {
+    const std::string line = to_line(event);
+    const std::lock_guard lock(mutex_);  // the signs of life come from a thread of their own
+    up_.send(line);
+  }
 
  private:
   const LineSocket& up_;
+  std::mutex mutex_;
 };
 
 std::optional<RunnerOrder> receive_order(LineSocket& down) {
@@ -52,29 +65,60 @@ std::optional<RunnerOrder> receive_order(LineSocket& down) {
   return std::nullopt;
 }
 
-/// Waits for the cancel line; when the agent is gone there is no one to work for.
-void heed_agent(LineSocket& down, std::atomic<bool>& stop) {
+/// Waits for a word to stop; when the agent is gone there is no one to work for.
+void heed_agent(LineSocket& down, std::atomic<Stop>& stop) {
   while (true) {
-    while (down.next_line()) stop.store(true);
+    while (const std::optional<std::string> line = down.next_line()) {
+      const bool pause = *line + '\n' == kPauseLine;
+      if (stop.load() != Stop::kNow) stop.store(pause ? Stop::kAfterCheckpoint : Stop::kNow);
+    }
     if (down.receive(true) == LineSocket::Read::kEnd) ::_exit(0);
   }
 }
 
-RunnerResult run_order(const RunnerOrder& order, RunEvents& events, const std::atomic<bool>& stop) {
+/// A step may take minutes; a runner that is silent for much longer than this is frozen or lost.
+void show_life(EventsUp& events) {
+  while (true) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    events.send(RunnerAlive{});
+  }
+}
+
+RunSettings settings_of(const RunnerOrder& order) {
+  const std::filesystem::path directory = order.directory;
+  RunSettings settings;
+  settings.frames = directory / kFramesPath;
+  settings.report = directory / kReportName;
+  settings.probes = directory / kProbesName;
+  settings.threads = order.threads;
+  settings.render_backend = order.render_backend;
+  const bool simulates = order.particles.empty();
+  if (!simulates) return settings;
+  settings.files = directory;
+  settings.checkpoints = directory / kCheckpointsPath;
+  settings.checkpoint_interval =
+      std::chrono::milliseconds(static_cast<std::int64_t>(1000 * order.checkpoint_seconds));
+  settings.resume_from.assign(order.resume_from.begin(), order.resume_from.end());
+  return settings;
+}
+
+RunnerResult run_order(const RunnerOrder& order, RunEvents& events, const std::atomic<Stop>& stop) {
   try {
-    const std::filesystem::path directory = order.directory;
-    RunSettings settings = {directory / kFramesPath, directory / kReportName, directory / kProbesName,
-                            order.threads,           order.render_backend,    directory};
-    const bool draw_only = !order.particles.empty();
-    if (draw_only) settings.files.clear();
-    const Report report =
-        draw_only ? redraw(read_plan_scene(order.plan), order.particles, FrameRange{}, settings, events, stop)
-                  : run(read_plan(order.plan), settings, events, stop);
-    return {report.state, report.error};
+    const RunSettings settings = settings_of(order);
+    const std::vector<std::filesystem::path> particles(order.particles.begin(), order.particles.end());
+    const Report report = particles.empty() ? run(read_plan(order.plan), settings, events, stop)
+                                            : redraw(read_plan_scene(order.plan), particles, FrameRange{},
+                                                     settings, events, stop);
+    return {report.state, report.error, report.state == "failed" ? "simulation" : ""};
   } catch (const std::bad_alloc&) {
-    return {"failed", "out of memory: choose a larger spacing, fewer points per cell or a smaller picture"};
+    return {"failed", "out of memory: choose a larger spacing, fewer points per cell or a smaller picture",
+            "memory"};
+  } catch (const InputError& failure) {
+    return {"failed", failure.what(), "input"};
+  } catch (const std::system_error& failure) {
+    return {"failed", failure.what(), "files"};
   } catch (const std::exception& failure) {
-    return {"failed", failure.what()};
+    return {"failed", failure.what(), "other"};
   }
 }
 
@@ -88,13 +132,14 @@ int runner_main(int fd) {
     return 2;
   }
   limit_process(order->memory_limit);
-  std::atomic<bool> stop{false};
-  std::thread(heed_agent, std::ref(socket), std::ref(stop)).detach();
+  std::atomic<Stop> stop{Stop::kNo};
   EventsUp events(socket);
+  std::thread(heed_agent, std::ref(socket), std::ref(stop)).detach();
+  std::thread(show_life, std::ref(events)).detach();
   const RunnerResult result = run_order(*order, events, stop);
   if (!result.error.empty()) events.log(result.error);
-  socket.send(to_line(RunnerEvent(result)));
-  ::_exit(0);  // the listening thread still uses what a return would destroy
+  events.send(result);
+  ::_exit(0);  // the other threads still use what a return would destroy
 }
 
 }  // namespace lather::server

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <variant>
 
+#include "server/agent/recovery.h"
+
 namespace lather::server {
 namespace {
 
@@ -20,22 +22,30 @@ constexpr auto kHeartbeatInterval = std::chrono::milliseconds(500);
 
 }  // namespace
 
-RunnerWatch::RunnerWatch(Store& store, const Job& job, AttemptLog& log, const AttemptSignals& signals)
-    : store_(store), job_(job), log_(log), signals_(signals), socket_(runner_.socket(), kLongestEvent) {}
+RunnerWatch::RunnerWatch(Store& store, const Job& job, const std::filesystem::path& directory,
+                         AttemptLog& log, const AttemptSignals& signals, Counters& counters)
+    : store_(store),
+      job_(job),
+      directory_(directory),
+      log_(log),
+      signals_(signals),
+      counters_(counters),
+      socket_(runner_.socket(), kLongestEvent) {}
 
 RunnerOutcome RunnerWatch::watch(const RunnerOrder& order) {
   socket_.send(to_line(order));
   while (wait_for_news()) {
     keep_lease();
-    heed_signals();
     hear_events();
     hear_log();
+    end_when_frozen();
   }
   outcome_.end = runner_.wait();
   hear_events();
   hear_log();
   if (outcome_.last.frames > 0 && !outcome_.lost) store_progress();
   outcome_.log_tail = log_.tail();
+  outcome_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   return outcome_;
 }
 
@@ -52,8 +62,10 @@ bool RunnerWatch::wait_for_news() {
     std::uint64_t count = 0;
     while (::read(signals_.wake, &count, sizeof count) < 0 && errno == EINTR) {
     }
+    next_heartbeat_ = Clock::now();
   }
   if (Clock::now() >= kill_at_) {
+    outcome_.given_up = true;
     runner_.kill();
     kill_at_ = Clock::time_point::max();
   }
@@ -66,25 +78,29 @@ void RunnerWatch::keep_lease() {
   next_heartbeat_ = Clock::now() + kHeartbeatInterval;
   outcome_.lost = !state;
   if (outcome_.lost) runner_.kill();
-  if (state == JobState::kCancelling) begin_cancel();
+  if (state == JobState::kCancelling) ask(kCancelLine, cancel_asked_, signals_.cancel_grace);
+  if (state == JobState::kPausing || signals_.abandoned.load())
+    ask(kPauseLine, pause_asked_, signals_.pause_grace);
 }
 
-void RunnerWatch::heed_signals() {
-  if (signals_.abandoned.load()) runner_.kill();
-  if (signals_.cancelled.load()) begin_cancel();
+void RunnerWatch::ask(std::string_view line, bool& asked, std::chrono::milliseconds grace) {
+  if (asked) return;
+  asked = true;
+  socket_.send(line);
+  kill_at_ = std::min(kill_at_, Clock::now() + grace);
 }
 
-void RunnerWatch::begin_cancel() {
-  if (cancel_sent_) return;
-  cancel_sent_ = true;
-  socket_.send(kCancelLine);
-  kill_at_ = Clock::now() + signals_.cancel_grace;
+void RunnerWatch::end_when_frozen() {
+  if (outcome_.frozen || Clock::now() - last_heard_ < signals_.silence) return;
+  outcome_.frozen = true;
+  runner_.kill();
 }
 
 void RunnerWatch::hear_events() {
   LineSocket::Read read = LineSocket::Read::kData;
   while (socket_open_ && read == LineSocket::Read::kData) {
     read = socket_.receive(false);
+    if (read == LineSocket::Read::kData) last_heard_ = Clock::now();
     while (const std::optional<std::string> line = socket_.next_line()) {
       if (const std::optional<RunnerEvent> event = event_from_line(*line))
         std::visit([this](const auto& e) { on(e); }, *event);
@@ -107,6 +123,11 @@ void RunnerWatch::hear_log() {
 void RunnerWatch::on(const RunProgress& progress) {
   const bool last = progress.fraction >= 1;
   outcome_.last = progress;
+  // The first word of an attempt may come far into a run that goes on from a checkpoint.
+  if (counted_step_ && progress.step > *counted_step_)
+    counters_.add("lather_point_steps_total",
+                  static_cast<double>(job_.points) * static_cast<double>(progress.step - *counted_step_));
+  counted_step_ = progress.step;
   if (!last && Clock::now() - last_stored_ < kStoreInterval) return;
   store_progress();
 }
@@ -127,7 +148,16 @@ void RunnerWatch::store_progress() {
 
 void RunnerWatch::on(const FrameFile& frame) {
   if (frame.index < 0 || frame.index >= job_.progress.frames || frame.sha256.size() != 64) return;
-  store_.publish(job_.id, job_.attempt, {frame.index, frame.sha256, frame.size, job_.attempt});
+  if (store_.publish(job_.id, job_.attempt, {frame.index, frame.sha256, frame.size, job_.attempt}))
+    counters_.add("lather_frames_total");
+}
+
+void RunnerWatch::on(const CheckpointFile& checkpoint) {
+  if (!store_.add_checkpoint(job_.id, {job_.attempt, checkpoint.step, checkpoint.time, checkpoint.size}))
+    return;
+  counters_.add("lather_checkpoints_total");
+  for (const CheckpointRow& old : store_.drop_checkpoints(job_.id, kKeptCheckpoints))
+    remove_file(checkpoint_path(directory_, old));
 }
 
 void RunnerWatch::on(const RunnerResult& result) {

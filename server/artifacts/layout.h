@@ -4,7 +4,7 @@
 #include <string>
 
 /// Where things lie in the data directory: DATA/jobs/ID/attempts/K/{report.json, probes.csv, log.txt,
-/// frames/main/color/NNNNN.png}.
+/// frames/main/color/NNNNN.png, checkpoints/STEP.checkpoint}.
 namespace lather::server {
 
 [[nodiscard]] inline std::filesystem::path jobs_directory(const std::filesystem::path& data) {
@@ -17,6 +17,7 @@ namespace lather::server {
 
 inline constexpr const char* kFramesPath =
     "frames/main/color";  ///< below an attempt: camera "main", channel "color"
+inline constexpr const char* kCheckpointsPath = "checkpoints";
 inline constexpr const char* kReportName = "report.json";
 inline constexpr const char* kProbesName = "probes.csv";
 inline constexpr const char* kLogName = "log.txt";

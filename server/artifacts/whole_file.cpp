@@ -1,6 +1,7 @@
 #include "server/artifacts/whole_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,11 +29,15 @@ void write_all(int fd, std::string_view bytes, const fs::path& file) {
   }
 }
 
-void write_synced(const fs::path& file, std::string_view bytes) {
+void write_synced(const fs::path& file, std::initializer_list<std::string_view> parts) {
   const OwnedFd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644));
   if (!fd) fail("cannot create", file);
-  write_all(fd.get(), bytes, file);
+  for (const std::string_view bytes : parts) write_all(fd.get(), bytes, file);
   if (::fsync(fd.get()) != 0) fail("cannot sync", file);
+}
+
+fs::path directory_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 void sync_directory(const fs::path& directory) {
@@ -43,16 +48,28 @@ void sync_directory(const fs::path& directory) {
 }  // namespace
 
 void write_whole(const fs::path& file, std::string_view bytes) {
+  write_whole(file, {bytes});
+}
+
+void write_whole(const fs::path& file, std::initializer_list<std::string_view> parts) {
   fs::path part = file;
   part += kPartSuffix;
   try {
-    write_synced(part, bytes);
+    write_synced(part, parts);
     if (::rename(part.c_str(), file.c_str()) != 0) fail("cannot rename to", file);
-    sync_directory(file.has_parent_path() ? file.parent_path() : fs::path("."));
+    sync_directory(directory_of(file));
   } catch (...) {
     ::unlink(part.c_str());
     throw;
   }
+}
+
+void make_directories(const fs::path& directory) {
+  if (fs::is_directory(directory)) return;
+  const fs::path above = directory_of(directory);
+  make_directories(above);
+  if (::mkdir(directory.c_str(), 0755) != 0 && errno != EEXIST) fail("cannot make", directory);
+  sync_directory(above);
 }
 
 std::size_t sweep_parts(const fs::path& root) {

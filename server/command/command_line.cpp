@@ -118,7 +118,8 @@ void add_store(CLI::App& command, AgentOptions& agent, const std::string& otherw
       ->envname("LATHER_STORE");
   command
       .add_option("--lease-seconds", agent.lease_seconds,
-                  "with --store: an agent that is silent for so long loses its jobs to others")
+                  "a runner that is silent for so long is ended and replaced; with --store, an agent loses "
+                  "its jobs to others")
       ->capture_default_str()
       ->check(CLI::Range(2.0, 3600.0));
 }
@@ -130,6 +131,11 @@ void add_agent(CLI::App& command, AgentOptions& agent, int fewest_workers) {
   command.add_option("--threads", agent.threads, "threads of each job; 0: the cores shared by the workers")
       ->check(CLI::Range(0, 1024));
   add_backend(command, agent.render_backend);
+  command
+      .add_option("--checkpoint-seconds", agent.checkpoint_seconds,
+                  "time between two checkpoints of a job, from which it goes on after a break")
+      ->capture_default_str()
+      ->check(CLI::Range(0.02, 86400.0));
   command.add_option("--runner-memory", agent.runner_memory,
                      "address space of a runner in bytes; 0: no limit");
 }
@@ -151,6 +157,7 @@ void add_serve(CLI::App& program, AllOptions& all) {
       "--artifacts", serve.agent.artifacts,
       "directory of the jobs' files where workers share them; the data directory if not given");
   add_agent(command, serve.agent, 0);
+  command.add_option("--ffmpeg", serve.ffmpeg, "program that makes films")->capture_default_str();
   command.add_option("--request-seconds", serve.request_seconds, "time for a request's head to arrive")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));

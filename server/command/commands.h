@@ -65,7 +65,8 @@ struct AgentOptions {
   int threads = 0;
   std::string render_backend = "auto";
   std::uint64_t runner_memory = 0;  ///< bytes; 0: no limit
-  double lease_seconds = 15;        ///< from an agent's last sign of life to the loss of its jobs
+  double lease_seconds = 15;        ///< from an agent's or a runner's last sign of life to its loss
+  double checkpoint_seconds = 60;   ///< wall clock, between two checkpoints of a job
 };
 
 struct ServeOptions {
@@ -75,7 +76,8 @@ struct ServeOptions {
   std::vector<std::string> allow_host;
   std::filesystem::path data = "lather-data";
   std::filesystem::path scenes;
-  double request_seconds = 10;  ///< for a request's head to arrive
+  std::string ffmpeg = "ffmpeg";  ///< program that makes films
+  double request_seconds = 10;    ///< for a request's head to arrive
   AgentOptions agent;
   JobLimits limits;
 };

@@ -48,9 +48,9 @@ int render_command(const RenderOptions& options) {
   const RunSettings settings = {
       out / "frames",  out / "report.json",    out / "probes.csv",
       options.threads, options.render_backend, asks_for_files(changes) ? out : std::filesystem::path()};
-  const std::atomic<bool>& interrupted = heed_interrupts();
+  const std::atomic<Stop>& interrupted = heed_interrupts();
   const Report report = with_events(options.json, [&](RunEvents& events) {
-    return redraw(scene, options.kept / "particles", range, settings, events, interrupted);
+    return redraw(scene, {options.kept / "particles"}, range, settings, events, interrupted);
   });
   if (report.state == "cancelled") {
     std::fprintf(stderr, "interrupted; the frames made so far are in %s\n", (out / "frames").c_str());

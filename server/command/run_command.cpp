@@ -32,7 +32,7 @@ int conclude(const Report& report, const RunOptions& options) {
 
 int run_command(const RunOptions& options) {
   const Plan plan = make_plan(read_scene(options.scene));
-  const std::atomic<bool>& interrupted = heed_interrupts();
+  const std::atomic<Stop>& interrupted = heed_interrupts();
   std::filesystem::create_directories(options.out);
   write_whole(options.out / "plan.json", to_json(plan));
   const RunSettings settings = {options.out / "frames",     options.out / "report.json",

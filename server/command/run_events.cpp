@@ -10,7 +10,7 @@
 namespace lather::server {
 namespace {
 
-std::atomic<bool> interrupted{false};
+std::atomic<Stop> interrupted{Stop::kNo};
 
 class EventsForPeople final : public RunEvents {
  public:
@@ -21,6 +21,7 @@ class EventsForPeople final : public RunEvents {
     bar_.show(progress.fraction, progress.eta_seconds, text);
   }
   void frame(const FrameFile&) override {}
+  void checkpoint(const CheckpointFile&) override {}
   void log(const std::string& line) override { bar_.line(line); }
 
  private:
@@ -32,6 +33,7 @@ class EventsAsJson final : public RunEvents {
  public:
   void progress(const RunProgress& progress) override { print(progress); }
   void frame(const FrameFile& frame) override { print(frame); }
+  void checkpoint(const CheckpointFile& checkpoint) override { print(checkpoint); }
   void log(const std::string& line) override { std::fprintf(stderr, "%s\n", line.c_str()); }
   static void print(const RunnerEvent& event) {
     std::fputs(to_line(event).c_str(), stdout);
@@ -41,9 +43,9 @@ class EventsAsJson final : public RunEvents {
 
 }  // namespace
 
-const std::atomic<bool>& heed_interrupts() {
+const std::atomic<Stop>& heed_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted.store(true); };
+  action.sa_handler = [](int) { interrupted.store(Stop::kNow); };
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends it at once
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
@@ -54,7 +56,8 @@ Report with_events(bool json, const std::function<Report(RunEvents&)>& work) {
   if (json) {
     EventsAsJson events;
     Report report = work(events);
-    EventsAsJson::print(RunnerResult{report.state, report.error});
+    EventsAsJson::print(
+        RunnerResult{report.state, report.error, report.state == "failed" ? "simulation" : ""});
     return report;
   }
   EventsForPeople events;

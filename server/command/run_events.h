@@ -9,7 +9,7 @@
 namespace lather::server {
 
 /// Set by the first SIGINT or SIGTERM from now on; the second one ends the program.
-[[nodiscard]] const std::atomic<bool>& heed_interrupts();
+[[nodiscard]] const std::atomic<Stop>& heed_interrupts();
 
 /// Calls work(events), which tell people on stderr how far it is, or programs on stdout: one JSON object a
 /// line.

@@ -94,6 +94,7 @@ ApiSettings api_settings(const ServeOptions& options, const fs::path& artifacts)
   settings.data = artifacts;
   settings.scenes = find_scenes(options);
   settings.limits = options.limits;
+  settings.ffmpeg = options.ffmpeg;
   return settings;
 }
 
@@ -111,8 +112,9 @@ int serve_command(const ServeOptions& options) {
   const LockFile lock(data);
   const std::unique_ptr<Store> store = open_store(options.agent, data);
 
-  Agent agent(*store, agent_settings(options.agent, artifacts));
-  Api api(*store, agent, api_settings(options, artifacts));
+  Counters counters;
+  Agent agent(*store, agent_settings(options.agent, artifacts), counters);
+  Api api(*store, agent, counters, api_settings(options, artifacts));
   Listener listener(listener_settings(options),
                     [&api](const HttpRequest& request) { return api.handle(request); });
   const int port = listener.start(options.host, options.port);

@@ -4,9 +4,18 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdint>
+
 #include "sim/error.h"
 
 namespace lather::server {
+namespace {
+
+std::chrono::milliseconds milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
+}  // namespace
 
 sigset_t block_stop_signals() {
   std::signal(SIGPIPE, SIG_IGN);
@@ -21,7 +30,8 @@ sigset_t block_stop_signals() {
 void wait_for_stop(const sigset_t& stop) {
   int signal = 0;
   ::sigwait(&stop, &signal);
-  spdlog::info("{}: stopping; running jobs go back into the queue", signal == SIGINT ? "SIGINT" : "SIGTERM");
+  spdlog::info("{}: stopping; running jobs write a checkpoint and go back into the queue",
+               signal == SIGINT ? "SIGINT" : "SIGTERM");
 }
 
 void log_to_stderr() {
@@ -37,7 +47,7 @@ std::unique_ptr<Store> open_shared_store(const AgentOptions& options, std::chron
         {{"--store", "", "postgresql://[USER@]HOST[:PORT]/DATABASE",
           "the store shared with workers is a PostgreSQL database, named by --store or LATHER_STORE"}});
   PostgresSettings settings;
-  settings.lease_term = std::chrono::milliseconds(static_cast<long>(1000 * options.lease_seconds));
+  settings.lease_term = milliseconds(options.lease_seconds);
   settings.patience = patience;
   return open_postgres_store(options.store, settings);
 }
@@ -49,6 +59,8 @@ AgentSettings agent_settings(const AgentOptions& options, const std::filesystem:
   settings.threads = options.threads;
   settings.render_backend = options.render_backend;
   settings.memory_limit = options.runner_memory;
+  settings.silence = milliseconds(options.lease_seconds);
+  settings.checkpoint_interval = milliseconds(options.checkpoint_seconds);
   return settings;
 }
 

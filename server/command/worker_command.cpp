@@ -34,7 +34,8 @@ int worker_command(const AgentOptions& options) {
   // A restart of the database must not end attempts of hours: it is waited for as long as the leases last.
   const std::chrono::milliseconds patience(static_cast<long>(1000 * options.lease_seconds * 2 / 3));
   const std::unique_ptr<Store> store = open_shared_store(options, patience);
-  Agent agent(*store, agent_settings(options, artifacts));
+  Counters counters;  // a worker has no /metrics: those of the store are the server's
+  Agent agent(*store, agent_settings(options, artifacts), counters);
   std::printf("working on %d jobs at a time\n", options.workers);
   std::fflush(stdout);
 

@@ -1,10 +1,15 @@
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -57,10 +62,19 @@ std::shared_ptr<void> take_stream(std::atomic<int>& streams, int most) {
   return nullptr;
 }
 
-HttpResponse busy_response() {
-  HttpResponse busy = HttpError(503, "too many downloads are under way: try again").response();
-  busy.headers.emplace_back("Retry-After", "5");
-  return busy;
+/// Pictures a second: the scene's own rate, as far as a screen can show it, or "fps".
+double film_rate(const HttpRequest& request, const Job& job) {
+  constexpr double kSlowest = 1;
+  constexpr double kFastest = 60;
+  double rate = std::clamp(job.frame_rate, kSlowest, kFastest);
+  for (const auto& [name, value] : request.parameters) {
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), rate);
+    const bool whole = error == std::errc{} && end == value.data() + value.size();
+    if (name != "fps" || !whole || !(rate >= kSlowest && rate <= kFastest))
+      throw HttpError(400, "the query is not usable",
+                      {{"", name + '=' + value, "fps=1 to fps=60", "a film has 'fps' alone to choose"}});
+  }
+  return rate;
 }
 
 /// All bytes of the file, a piece at a time.
@@ -111,7 +125,7 @@ HttpResponse Api::get_frame(const HttpRequest& request, const std::string& id, c
 HttpResponse Api::get_file(const std::string& id, const std::string& number, const FrameFileKind& kind) {
   const FrameRow frame = need_frame(need_job(id), number);
   const std::shared_ptr<void> place = take_stream(streams_, settings_.most_streams);
-  if (!place) return busy_response();
+  if (!place) return busy_response("too many downloads are under way");
   const auto file = std::make_shared<const OwnedFd>(open_beneath(
       job_directory(settings_.data, id),
       attempt_path(frame.attempt) + '/' + kind.folder + '/' + frame_file_name(frame.index, kind.ending)));
@@ -131,7 +145,7 @@ HttpResponse Api::get_file(const std::string& id, const std::string& number, con
 HttpResponse Api::get_zip(const std::string& id) {
   const Job job = need_job(id);
   const std::shared_ptr<void> place = take_stream(streams_, settings_.most_streams);
-  if (!place) return busy_response();
+  if (!place) return busy_response("too many downloads are under way");
   std::vector<ZipEntry> entries;
   for (const FrameRow& frame : store_.frames(id))
     entries.push_back({frame_file_name(frame.index), [this, id, frame] { return read_frame(id, frame); }});
@@ -141,6 +155,40 @@ HttpResponse Api::get_zip(const std::string& id) {
   response.headers.emplace_back("Cache-Control", "no-store");
   response.stream = [entries = std::move(entries), place](const BodySink& sink) {
     return write_zip(entries, sink);
+  };
+  return response;
+}
+
+HttpResponse Api::get_film(const HttpRequest& request, const std::string& id, FilmKind kind) {
+  const Job job = need_job(id);
+  const double rate = film_rate(request, job);
+  const std::optional<std::filesystem::path> ffmpeg = find_program(settings_.ffmpeg);
+  if (!ffmpeg)
+    throw HttpError(501,
+                    "this server cannot make films: install ffmpeg on its machine, or name it with --ffmpeg");
+  const std::vector<FrameRow> frames = store_.frames(id);
+  if (frames.empty()) throw HttpError(404, "there are no frames yet to make a film of");
+  const std::shared_ptr<void> place = take_stream(films_, settings_.most_films);
+  if (!place) return busy_response("too many films are being made");
+  const std::string ending = kind == FilmKind::kMp4 ? "mp4" : "webm";
+  HttpResponse response;
+  response.content_type = "video/" + ending;
+  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + id + '.' + ending + '"');
+  response.headers.emplace_back("Cache-Control", "no-store");
+  response.stream = [this, id, kind, rate, place, program = *ffmpeg, frames](const BodySink& sink) {
+    std::size_t at = 0;
+    const auto next = [&]() -> std::optional<std::string> {
+      if (at == frames.size()) return std::nullopt;
+      std::optional<std::string> picture = read_frame(id, frames[at++]);
+      if (!picture) throw std::runtime_error("a frame's file is gone");
+      return picture;
+    };
+    try {
+      return write_film(program, kind, rate, next, sink);
+    } catch (const std::exception& failure) {  // the head is sent: the client sees a body without an end
+      spdlog::error("job {}: its film cannot be made: {}", id, failure.what());
+      return false;
+    }
   };
   return response;
 }

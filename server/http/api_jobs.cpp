@@ -8,10 +8,12 @@
 
 #include "server/artifacts/layout.h"
 #include "server/http/api.h"
+#include "server/http/job_changes.h"
 #include "server/http/job_json.h"
 #include "server/http/problem.h"
 #include "server/http/redraw_submission.h"
 #include "server/http/submission.h"
+#include "server/job/drawn_from.h"
 
 namespace lather::server {
 namespace {
@@ -38,7 +40,9 @@ Listing read_listing(const HttpRequest& request) {
       try {
         listing.state = job_state_from_string(value);
       } catch (const std::invalid_argument&) {
-        throw bad_parameter(name, value, "queued, running, cancelling, cancelled, succeeded or failed");
+        throw bad_parameter(name, value,
+                            "queued, running, pausing, paused, cancelling, cancelled, "
+                            "succeeded or failed");
       }
     } else {
       throw bad_parameter(name, value, "one of limit, cursor, state");
@@ -59,20 +63,14 @@ HttpResponse Api::post_render(const HttpRequest& request, const std::string& id)
     throw HttpError(409, "the job is " + std::string(to_string(source.state)) +
                              ": its particles are drawn again when it has ended");
   const std::string plan = store_.plan(id).value_or("");
-  // The particles that this job drew, where it was one that drew again; else its own, of the attempt that
-  // made frame 0.
-  std::optional<DrawnFrom> from = drawn_from(plan);
-  if (!from) {
-    const std::optional<FrameRow> first = store_.frame(id, 0);
-    if (!first) throw HttpError(409, "the job has no frames to draw again");
-    from = DrawnFrom{id, first->attempt};
-  }
-  return add_job(make_redraw(request, source, plan, *from, settings_.limits));
+  // The particles that this job drew, where it was one that drew again; else its own.
+  const std::string from = drawn_from(plan).value_or(id);
+  if (store_.count_frames(from) == 0) throw HttpError(409, "the job has no frames to draw again");
+  return add_job(make_redraw(request, source, plan, from, settings_.limits));
 }
 
 HttpResponse Api::add_job(const Submission& submission) {
-  if (store_.count(JobState::kQueued) >= settings_.most_queued)
-    throw HttpError(503, "the queue is full: try again when jobs have ended");
+  require_room_in_queue();
   if (const std::optional<Job> earlier = store_.add(submission)) {
     if (earlier->request_digest != submission.job.request_digest)
       throw HttpError(422, "this Idempotency-Key was used before for another request: choose a new one");
@@ -101,6 +99,59 @@ HttpResponse Api::cancel_job(const std::string& id) {
   const Job before = need_job(id);
   if (!agent_.cancel(id)) throw HttpError(409, "the job has ended: " + std::string(to_string(before.state)));
   return job_response(202, need_job(id));
+}
+
+HttpResponse Api::pause_job(const std::string& id) {
+  const Job before = need_job(id);
+  if (!agent_.pause(id))
+    throw HttpError(409, "the job cannot be paused: it is " + std::string(to_string(before.state)));
+  return job_response(202, need_job(id));
+}
+
+HttpResponse Api::resume_job(const std::string& id) {
+  const Job job = need_job(id);
+  require_room_in_queue();
+  if (!store_.requeue(id, JobState::kPaused))
+    throw HttpError(409, "only a paused job is resumed: it is " + std::string(to_string(job.state)));
+  return queued_again(id);
+}
+
+HttpResponse Api::retry_job(const std::string& id) {
+  const Job job = need_job(id);
+  require_room_in_queue();
+  const bool unfinished = job.state == JobState::kFailed || job.state == JobState::kCancelled;
+  if (!unfinished || !store_.requeue(id, job.state))
+    throw HttpError(409, "only a job that failed or was cancelled is tried again: it is " +
+                             std::string(to_string(job.state)));
+  return queued_again(id);
+}
+
+HttpResponse Api::extend_job(const HttpRequest& request, const std::string& id) {
+  const Job job = need_job(id);
+  if (job.state != JobState::kSucceeded)
+    throw HttpError(409,
+                    "only a job that succeeded is made longer: it is " + std::string(to_string(job.state)));
+  const LongerRun longer = make_longer(request, store_.plan(id).value_or(""), settings_.limits);
+  require_room_in_queue();
+  if (!store_.extend(id, longer)) throw HttpError(409, "someone else has just changed the job");
+  return queued_again(id);
+}
+
+HttpResponse Api::set_priority(const HttpRequest& request, const std::string& id) {
+  const Job job = need_job(id);
+  if (!store_.set_priority(id, read_priority(request)))
+    throw HttpError(409, "the job has ended: " + std::string(to_string(job.state)));
+  return job_response(200, need_job(id));
+}
+
+HttpResponse Api::queued_again(const std::string& id) {
+  agent_.wake();
+  return job_response(202, need_job(id));
+}
+
+void Api::require_room_in_queue() {
+  if (store_.count(JobState::kQueued) >= settings_.most_queued)
+    throw HttpError(503, "the queue is full: try again when jobs have ended");
 }
 
 HttpResponse Api::delete_job(const std::string& id) {

@@ -12,7 +12,6 @@
 #include "server/http/problem.h"
 #include "server/http/submission.h"
 #include "sim/scene/value.h"
-#include "sim/simulation.h"
 
 namespace lather::server {
 namespace {
@@ -90,14 +89,6 @@ HttpResponse Api::get_scene_picture(const HttpRequest& request, const std::strin
   response.headers.emplace_back("ETag", tag);
   response.headers.emplace_back("Cache-Control", "no-cache");
   return response;
-}
-
-HttpResponse Api::health() {
-  const auto count = [this](JobState state) { return static_cast<std::int64_t>(store_.count(state)); };
-  return json_response(200, write_json(Object{{"status", "ok"},
-                                              {"version", version()},
-                                              {"queued", count(JobState::kQueued)},
-                                              {"running", count(JobState::kRunning)}}));
 }
 
 }  // namespace lather::server

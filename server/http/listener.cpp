@@ -114,6 +114,16 @@ const httplib::Headers kHeadersOfAll = {{"X-Content-Type-Options", "nosniff"},
                                          "'self' data: blob:; connect-src 'self'; "
                                          "form-action 'none'; frame-ancestors 'none'; base-uri 'none'"}};
 
+/// Of a body that ends with the connection.
+std::string head_without_length(const HttpResponse& response) {
+  std::string head = "HTTP/1.1 " + std::to_string(response.status) + ' ' + reason_phrase(response.status) +
+                     "\r\nContent-Type: " + response.content_type + "\r\nConnection: close\r\n";
+  for (const auto& [name, value] : kHeadersOfAll) head.append(name).append(": ").append(value).append("\r\n");
+  for (const auto& [name, value] : response.headers)
+    head.append(name).append(": ").append(value).append("\r\n");
+  return head + "\r\n";
+}
+
 }  // namespace
 
 class Listener::Server final : public httplib::Server {
@@ -134,7 +144,7 @@ class Listener::Server final : public httplib::Server {
       ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     set_pre_routing_handler([this](const httplib::Request&, httplib::Response& to) {
-      fill(answer(*current_request), *current_request, to);
+      fill(std::move(*current.response), *current.request, to);
       return HandlerResponse::Handled;
     });
     set_exception_handler(
@@ -188,11 +198,13 @@ class Listener::Server final : public httplib::Server {
   }
 
   void serve(OwnedFd& connection, const HttpRequest& request, std::string& rest) {
+    HttpResponse response = answer(request);
+    if (response.take_over) return response.take_over(std::move(connection), head_without_length(response));
     GuardedStream stream(connection.get(), plain_head(request), stopping_);
     bool closed = false;
-    current_request = &request;
+    current = {&request, &response};
     const bool answered = process_request(stream, !request.keep_alive, closed, nullptr);
-    current_request = nullptr;
+    current = {};
     if (answered && !stream.failed() && request.keep_alive && !closed && !stopping_.load())
       parking_.add(std::move(connection), std::move(rest));
   }
@@ -230,7 +242,12 @@ class Listener::Server final : public httplib::Server {
       to.set_chunked_content_provider(from.content_type, provide);
   }
 
-  static thread_local const HttpRequest* current_request;
+  /// What the library is about to answer in this thread, and with what.
+  struct Current {
+    const HttpRequest* request = nullptr;
+    HttpResponse* response = nullptr;
+  };
+  static thread_local Current current;
 
   const AccessRules access_;
   const Listener::Handler handler_;
@@ -240,7 +257,7 @@ class Listener::Server final : public httplib::Server {
   std::thread accepting_;
 };
 
-thread_local const HttpRequest* Listener::Server::current_request = nullptr;
+thread_local Listener::Server::Current Listener::Server::current;
 
 Listener::Listener(ListenerSettings settings, Handler handler)
     : server_(std::make_unique<Server>(std::move(settings), std::move(handler))) {}

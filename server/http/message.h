@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/artifacts/owned_fd.h"
+
 /// A request and a response as the API sees them; no type of the HTTP library.
 namespace lather::server {
 
@@ -36,6 +38,9 @@ struct HttpResponse {
   std::string body;
   /// In place of `body`: writes it all into the sink; false when it could not be finished.
   std::function<bool(const BodySink&)> stream;
+  /// In place of both: takes the connection over, which is closed when whoever took it wants no more. `head`
+  /// are the bytes of status line and header fields, still to be sent.
+  std::function<void(OwnedFd connection, std::string head)> take_over;
 };
 
 /// Why a request is turned down before anyone looks at what it asks for.

@@ -4,6 +4,7 @@
 
 #include "server/http/problem.h"
 #include "server/http/submission.h"
+#include "server/job/drawn_from.h"
 #include "server/run/redraw.h"
 #include "sim/plan/plan.h"
 #include "sim/scene/value.h"
@@ -48,7 +49,7 @@ void check_kept(const Scene& scene) {
 }  // namespace
 
 Submission make_redraw(const HttpRequest& request, const Job& source, const std::string& plan,
-                       const DrawnFrom& from, const JobLimits& limits) {
+                       const std::string& from, const JobLimits& limits) {
   const Redraw redraw = read_redraw(request);
   check_kept(read_plan_scene(plan));
   // Its files are the source's: only pictures are made.

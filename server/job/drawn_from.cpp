@@ -6,18 +6,16 @@
 
 namespace lather::server {
 
-std::optional<DrawnFrom> drawn_from(std::string_view plan) {
+std::optional<std::string> drawn_from(std::string_view plan) {
   const auto json = nlohmann::json::parse(plan, nullptr, false);
   if (!json.is_object() || !json.contains("drawn_from")) return std::nullopt;
-  DrawnFrom source;
-  json.at("drawn_from").at("job").get_to(source.job);
-  json.at("drawn_from").at("attempt").get_to(source.attempt);
-  return is_job_id(source.job) ? std::optional(source) : std::nullopt;
+  const std::string job = json.at("drawn_from").at("job").get<std::string>();
+  return is_job_id(job) ? std::optional(job) : std::nullopt;
 }
 
-std::string with_drawn_from(std::string_view plan, const DrawnFrom& source) {
+std::string with_drawn_from(std::string_view plan, const std::string& job) {
   auto json = nlohmann::ordered_json::parse(plan);
-  json["drawn_from"] = {{"job", source.job}, {"attempt", source.attempt}};
+  json["drawn_from"] = {{"job", job}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

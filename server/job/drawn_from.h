@@ -6,15 +6,10 @@
 
 namespace lather::server {
 
-/// Where the particles of a job lie that draws another one's again. Stands in its plan as "drawn_from".
-struct DrawnFrom {
-  std::string job;
-  int attempt = 0;
-};
+/// The job whose kept particles a job draws again: in the plan of that one as "drawn_from". None for the plan
+/// of a job that simulates.
+[[nodiscard]] std::optional<std::string> drawn_from(std::string_view plan);
 
-/// None for the plan of a job that simulates.
-[[nodiscard]] std::optional<DrawnFrom> drawn_from(std::string_view plan);
-
-[[nodiscard]] std::string with_drawn_from(std::string_view plan, const DrawnFrom& source);
+[[nodiscard]] std::string with_drawn_from(std::string_view plan, const std::string& job);
 
 }  // namespace lather::server

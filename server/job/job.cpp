@@ -15,20 +15,33 @@ namespace {
 
 using S = JobState;
 
-constexpr std::array<std::pair<S, const char*>, 6> kNames = {{{S::kQueued, "queued"},
+constexpr std::array<std::pair<S, const char*>, 8> kNames = {{{S::kQueued, "queued"},
                                                               {S::kRunning, "running"},
+                                                              {S::kPausing, "pausing"},
+                                                              {S::kPaused, "paused"},
                                                               {S::kCancelling, "cancelling"},
                                                               {S::kCancelled, "cancelled"},
                                                               {S::kSucceeded, "succeeded"},
                                                               {S::kFailed, "failed"}}};
 
-constexpr std::array<std::pair<S, S>, 7> kMoves = {{{S::kQueued, S::kRunning},
-                                                    {S::kQueued, S::kCancelled},
-                                                    {S::kRunning, S::kSucceeded},
-                                                    {S::kRunning, S::kFailed},
-                                                    {S::kRunning, S::kCancelling},
-                                                    {S::kRunning, S::kQueued},
-                                                    {S::kCancelling, S::kCancelled}}};
+constexpr std::array<std::pair<S, S>, 18> kMoves = {{{S::kQueued, S::kRunning},
+                                                     {S::kQueued, S::kPaused},
+                                                     {S::kQueued, S::kCancelled},
+                                                     {S::kRunning, S::kSucceeded},
+                                                     {S::kRunning, S::kFailed},
+                                                     {S::kRunning, S::kPausing},
+                                                     {S::kRunning, S::kCancelling},
+                                                     {S::kRunning, S::kQueued},
+                                                     {S::kPausing, S::kPaused},
+                                                     {S::kPausing, S::kSucceeded},
+                                                     {S::kPausing, S::kFailed},
+                                                     {S::kPausing, S::kCancelling},
+                                                     {S::kPaused, S::kQueued},
+                                                     {S::kPaused, S::kCancelled},
+                                                     {S::kCancelling, S::kCancelled},
+                                                     {S::kCancelled, S::kQueued},
+                                                     {S::kSucceeded, S::kQueued},
+                                                     {S::kFailed, S::kQueued}}};
 
 }  // namespace
 
@@ -49,11 +62,33 @@ bool can_move(JobState from, JobState to) {
 }
 
 bool has_ended(JobState state) {
-  return std::none_of(kMoves.begin(), kMoves.end(), [&](const auto& move) { return move.first == state; });
+  return state == S::kSucceeded || state == S::kFailed || state == S::kCancelled;
+}
+
+bool is_at_work(JobState state) {
+  return state == S::kRunning || state == S::kPausing || state == S::kCancelling;
 }
 
 bool attempt_stands(JobState state) {
-  return state == S::kRunning;
+  return state == S::kRunning || state == S::kPausing;
+}
+
+JobState after_loss(JobState state, int losses) {
+  switch (state) {
+    case S::kRunning:
+      return losses >= kMostLosses ? S::kFailed : S::kQueued;
+    case S::kPausing:
+      return S::kPaused;
+    case S::kCancelling:
+      return S::kCancelled;
+    default:
+      return state;
+  }
+}
+
+std::string lost_too_often(const std::string& last) {
+  return std::to_string(kMostLosses) +
+         " attempts in a row were lost without a new checkpoint between them. The last one: " + last;
 }
 
 std::string new_job_id() {

@@ -24,14 +24,14 @@ bool is_below(const std::string& pointer, const std::string& key) {
 /// The kept frames of one run.
 class Kept {
  public:
-  Kept(const Scene& scene, std::filesystem::path particles, const RunSettings& settings)
+  Kept(const Scene& scene, std::vector<std::filesystem::path> particles, const RunSettings& settings)
       : scene_(scene), scenery_(scene), particles_(std::move(particles)), settings_(settings) {}
 
   /// The indices in `range` that are there, in order.
   [[nodiscard]] std::vector<int> indices(const FrameRange& range) const {
     std::vector<int> found;
     for (int index = std::max(0, range.first); index <= std::min(range.last, scene_.last_frame()); ++index)
-      if (open_beneath(particles_, frame_file_name(index, "ply"))) found.push_back(index);
+      if (directory_of(frame_file_name(index, "ply"))) found.push_back(index);
     if (found.empty())
       throw InputError(
           {{"", "", "files 00000.ply ... in this range of frames",
@@ -41,7 +41,9 @@ class Kept {
 
   [[nodiscard]] Frame read(int index) const {
     const std::string name = frame_file_name(index, "ply");
-    const std::optional<std::string> bytes = read_beneath(particles_, name, kLargestFile);
+    const std::filesystem::path* const directory = directory_of(name);
+    const std::optional<std::string> bytes =
+        directory ? read_beneath(*directory, name, kLargestFile) : std::nullopt;
     if (!bytes) throw std::runtime_error("the particles " + name + " are not there or cannot be read");
     try {
       return read_kept_frame(*bytes, scenery_);
@@ -59,9 +61,16 @@ class Kept {
   }
 
  private:
+  /// Null where none has it.
+  [[nodiscard]] const std::filesystem::path* directory_of(const std::string& name) const {
+    for (const std::filesystem::path& directory : particles_)
+      if (open_beneath(directory, name)) return &directory;
+    return nullptr;
+  }
+
   const Scene& scene_;
   const Scenery scenery_;
-  const std::filesystem::path particles_;
+  const std::vector<std::filesystem::path> particles_;
   const RunSettings settings_;
 };
 
@@ -104,8 +113,9 @@ bool asks_for_files(const std::vector<Override>& overrides) {
   });
 }
 
-Report redraw(const Scene& scene, const std::filesystem::path& particles, const FrameRange& range,
-              const RunSettings& settings, RunEvents& events, const std::atomic<bool>& stop) {
+Report redraw(const Scene& scene, const std::vector<std::filesystem::path>& particles,
+              const FrameRange& range, const RunSettings& settings, RunEvents& events,
+              const std::atomic<Stop>& stop) {
   using Clock = std::chrono::steady_clock;
   SerialEvents serial(events);
   RunSettings with_threads = settings;
@@ -117,14 +127,15 @@ Report redraw(const Scene& scene, const std::filesystem::path& particles, const 
   serial.log("drawing with " + renderer.backend());
   const auto start = Clock::now();
   std::size_t done = 0;
-  while (done < indices.size() && !stop.load() && renderer.push(kept.whole(indices[done]))) {
+  while (done < indices.size() && stop.load() == Stop::kNo && renderer.push(kept.whole(indices[done]))) {
     ++done;
     serial.progress(progress_at(done, indices, std::chrono::duration<double>(Clock::now() - start).count()));
   }
-  renderer.finish(!stop.load());
+  const Stop asked = done == indices.size() ? Stop::kNo : stop.load();
+  renderer.finish(asked == Stop::kNo);
 
   Report report;
-  report.state = stop.load() ? "cancelled" : "succeeded";
+  report.state = asked == Stop::kNo ? "succeeded" : asked == Stop::kNow ? "cancelled" : "paused";
   report.scene_name = scene.name;
   report.scene_hash = scene_hash(scene);
   report.version = version();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <vector>
 
 #include "server/run/run.h"
 #include "sim/report/report.h"
@@ -24,13 +25,14 @@ struct FrameRange {
   int last = 1'000'000;
 };
 
-/// Draws the frames of `range` that are kept as NNNNN.ply in `particles`; frame 0 must be among what is kept
-/// where the camera is automatic, for it is framed by that. With the scene as it was, pictures are equal byte
-/// for byte to those of the run. Report::state is "succeeded" or "cancelled"; it holds what drawing took, and
-/// no frames' figures. Throws InputError when there are no particles, std::exception when files or the
-/// renderer fail.
-[[nodiscard]] Report redraw(const Scene& scene, const std::filesystem::path& particles,
+/// Draws the frames of `range` that are kept as NNNNN.ply in one of the directories `particles` (a frame is
+/// taken from the first that has it); frame 0 must be among what is kept where the camera is automatic, for
+/// it is framed by that. With the scene as it was, pictures are equal byte for byte to those of the run.
+/// Report::state is "succeeded", "cancelled" or "paused", as run()'s; it holds what drawing took, and no
+/// frames' figures. There are no checkpoints of drawing: it starts over. Throws InputError when there are no
+/// particles, std::exception when files or the renderer fail.
+[[nodiscard]] Report redraw(const Scene& scene, const std::vector<std::filesystem::path>& particles,
                             const FrameRange& range, const RunSettings& settings, RunEvents& events,
-                            const std::atomic<bool>& stop);
+                            const std::atomic<Stop>& stop);
 
 }  // namespace lather::server

@@ -6,16 +6,32 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "server/run/run.h"
 #include "sim/export/frame_files.h"
 #include "sim/frame.h"
 
+namespace lather::render {
+class Renderer;
+}
+
 namespace lather::server {
 
+/// The state of a simulation between two steps, on its way to the disk.
+struct Checkpoint {
+  std::uint64_t step = 0;
+  double time = 0;  ///< simulated, s
+  std::string state;
+  bool spare =
+      false;  ///< nothing is lost without it: when it cannot be written, the log says so, and no more
+};
+
 /// Draws frames and writes them whole, with the files that the scene asks for, beside the simulation's next
-/// steps. One thread for the whole run, since a drawing context belongs to the thread that made it. At most
-/// two frames wait; then push() blocks, so that memory stays bounded when drawing is slower than stepping.
+/// steps; and checkpoints, in the order in which they come: when one is told of, all frames before it are on
+/// the disk. One thread for the whole run, since a drawing context belongs to the thread that made it. At
+/// most two things wait; then push() blocks, so that memory stays bounded when drawing is slower than
+/// stepping.
 class RenderThread {
  public:
   /// Returns once the drawing context stands; throws what made it fail. `scene` and `events` must outlive
@@ -26,8 +42,10 @@ class RenderThread {
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
 
-  /// False when drawing has failed: there is no use in going on, finish() says why.
-  [[nodiscard]] bool push(Frame frame);
+  using Item = std::variant<Frame, Checkpoint>;
+
+  /// False when drawing or writing has failed: there is no use in going on, finish() says why.
+  [[nodiscard]] bool push(Item item);
 
   /// Waits until the frames that were pushed are written (or dropped, without `draw_rest`), ends the thread
   /// and throws what made drawing fail, if anything did.
@@ -40,8 +58,10 @@ class RenderThread {
 
  private:
   void main();
+  void draw(render::Renderer& renderer, const Frame& frame);
   void write(const Frame& frame, const std::string& png);
-  bool take(Frame& frame);
+  void write(const Checkpoint& checkpoint);
+  bool take(Item& item);
   void close(bool draw_rest);
 
   const Scene& scene_;
@@ -49,12 +69,13 @@ class RenderThread {
   const std::vector<FrameFileKind> files_;
   RunEvents& events_;
   const std::string scene_hash_;
+  const std::string scene_json_;
   std::string backend_;
   double seconds_ = 0;
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Frame> waiting_;  // guarded by mutex_, as are those below
+  std::deque<Item> waiting_;  // guarded by mutex_, as are those below
   bool ready_ = false;
   bool closed_ = false;
   std::exception_ptr failure_;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <functional>
+#include <memory>
+#include <new>
 #include <thread>
+#include <utility>
 
+#include "render/render.h"
 #include "server/artifacts/whole_file.h"
+#include "server/run/checkpoint_file.h"
 #include "server/run/render_thread.h"
 #include "server/run/serial_events.h"
 #include "sim/simulation.h"
@@ -25,7 +29,9 @@ double seconds_since(Clock::time_point start) {
 /// Turns the steps' heartbeats into progress with a time left, about ten a second.
 class ProgressMeter {
  public:
-  ProgressMeter(const Plan& plan, RunEvents& events) : plan_(plan), events_(events) {}
+  /// `from`: simulated before this run, s.
+  ProgressMeter(const Plan& plan, double from, RunEvents& events)
+      : plan_(plan), first_fraction_(fraction_at(from)), events_(events) {}
 
   void heartbeat(const Progress& now) {
     if (now.frame == last_frame_ && Clock::now() - last_told_ < kProgressInterval) return;
@@ -37,55 +43,142 @@ class ProgressMeter {
     told.time = now.time;
     told.time_step = now.time_step;
     told.step = now.step;
-    const double end = (plan_.frames - 1) / plan_.scene.frame_rate;
-    told.fraction = end > 0 ? std::clamp(now.time / end, 0.0, 1.0) : 1.0;
+    told.fraction = fraction_at(now.time);
     const double spent = seconds_since(start_);
-    if (told.fraction > 0) {
-      told.eta_seconds = spent * (1 - told.fraction) / told.fraction;
-      told.seconds_per_frame = spent / (told.fraction * std::max(1, plan_.frames - 1));
+    if (told.fraction > first_fraction_) {
+      const double done = told.fraction - first_fraction_;
+      told.eta_seconds = spent * (1 - told.fraction) / done;
+      told.seconds_per_frame = spent / (done * std::max(1, plan_.frames - 1));
     }
     events_.progress(told);
   }
 
  private:
+  [[nodiscard]] double fraction_at(double time) const {
+    const double end = (plan_.frames - 1) / plan_.scene.frame_rate;
+    return end > 0 ? std::clamp(time / end, 0.0, 1.0) : 1.0;
+  }
+
   const Plan& plan_;
+  const double first_fraction_;
   RunEvents& events_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_told_{};
   int last_frame_ = -1;
 };
 
-/// Steps through all frames and hands each to the render thread; false when stopped before the end.
-bool make_frames(const Plan& plan, Simulation& simulation, RenderThread& renderer, RunEvents& events,
-                 const std::atomic<bool>& stop) {
-  ProgressMeter meter(plan, events);
+/// Takes checkpoints of a simulation between its steps: by the clock, and so rarely that the steps wait for
+/// them a tenth of the time at most.
+class Checkpoints {
+ public:
+  Checkpoints(const RunSettings& settings, RenderThread& writer, RunEvents& events)
+      : wanted_(!settings.checkpoints.empty()),
+        interval_(settings.checkpoint_interval),
+        writer_(writer),
+        events_(events),
+        next_(Clock::now() + interval_) {}
+
+  void take_when_due(const Simulation& simulation, const Progress& now) {
+    if (!wanted_ || Clock::now() < next_) return;
+    constexpr int kRarity = 10;
+    const Clock::time_point start = Clock::now();
+    take(simulation, now.step, now.time, false);
+    next_ = Clock::now() + std::max<Clock::duration>(interval_, kRarity * (Clock::now() - start));
+  }
+
+  /// `spare`: see RenderThread::push().
+  void take_at_end(const Simulation& simulation, bool spare) {
+    if (wanted_) take(simulation, simulation.report().steps, simulation.report().simulated_time, spare);
+  }
+
+ private:
+  /// Where drawing has failed it is dropped, for the next frame is, too, and finish() says why.
+  void take(const Simulation& simulation, std::uint64_t step, double time, bool spare) {
+    try {
+      static_cast<void>(writer_.push(Checkpoint{step, time, simulation.save(), spare}));
+    } catch (const std::bad_alloc&) {  // twice the state's memory was too much; the run itself goes on
+      events_.log("warning: there is too little memory for a checkpoint at step " + std::to_string(step));
+    }
+  }
+
+  const bool wanted_;
+  const std::chrono::milliseconds interval_;
+  RenderThread& writer_;
+  RunEvents& events_;
+  Clock::time_point next_;
+};
+
+/// A simulation at its start, or where the first usable checkpoint leaves it.
+std::unique_ptr<Simulation> start_or_resume(const Plan& plan, const RunSettings& settings,
+                                            std::unique_ptr<Simulation> fresh, RunEvents& events) {
+  for (const std::filesystem::path& file : settings.resume_from) {
+    try {
+      fresh->restore(read_checkpoint(file));
+      events.log("goes on from the checkpoint " + file.filename().string() + ", frame " +
+                 std::to_string(fresh->report().frames.back().frame));
+      return fresh;
+    } catch (const CheckpointError& error) {
+      events.log("warning: the checkpoint " + file.filename().string() + " is of no use: " + error.what());
+    } catch (const InputError& error) {
+      events.log("warning: the checkpoint " + file.filename().string() + " is of no use: " + error.what());
+      fresh = Simulation::create(plan, settings.threads);  // a restore may have stopped half-way
+    }
+  }
+  if (!settings.resume_from.empty()) events.log("no checkpoint can be used: from the start");
+  return fresh;
+}
+
+/// An automatic camera is framed by frame 0, also where that frame was drawn by another run.
+Scene with_camera(Scene scene, const Simulation& at_start) {
+  if (scene.look.camera.automatic)
+    scene.look.camera = render::automatic_camera(scene.look, scene.output, at_start.frame());
+  return scene;
+}
+
+/// Steps through the frames that are left and hands each to the render thread; the state to report.
+std::string make_frames(const Plan& plan, Simulation& simulation, int first, const RunSettings& settings,
+                        RenderThread& renderer, RunEvents& events, const std::atomic<Stop>& stop) {
+  ProgressMeter meter(plan, simulation.report().simulated_time, events);
+  Checkpoints checkpoints(settings, renderer, events);
   const auto heartbeat = [&](const Progress& now) {
     meter.heartbeat(now);
-    return !stop.load();
+    checkpoints.take_when_due(simulation, now);
+    return stop.load() == Stop::kNo;
   };
-  for (int index = 0; index < plan.frames; ++index) {
-    if (!simulation.step_to_frame(index, heartbeat)) return false;
-    if (stop.load() || !renderer.push(simulation.frame())) return false;
+  for (int index = first; index < plan.frames; ++index) {
+    const bool whole = simulation.step_to_frame(index, heartbeat);
+    if (stop.load() == Stop::kNow) return "cancelled";
+    // The checkpoint that ends a pause has this frame behind it, so the frame comes first.
+    if (whole && !renderer.push(simulation.frame())) return "cancelled";
+    if (stop.load() == Stop::kNo || (whole && index + 1 == plan.frames)) continue;
+    checkpoints.take_at_end(simulation, false);
+    return "paused";
   }
-  return true;
+  checkpoints.take_at_end(simulation, true);  // from which the run can be made longer
+  return "succeeded";
 }
 
 }  // namespace
 
-Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, const std::atomic<bool>& stop) {
+Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, const std::atomic<Stop>& stop) {
   SerialEvents serial(events);
   RunSettings with_threads = settings;
   with_threads.threads = thread_count(settings.threads);
   const int threads = with_threads.threads;
-  RenderThread renderer(plan.scene, scene_hash(plan.scene), with_threads, serial);
+  std::unique_ptr<Simulation> simulation = Simulation::create(plan, threads);
+  const Scene drawn = settings.resume_from.empty() ? plan.scene : with_camera(plan.scene, *simulation);
+  RenderThread renderer(drawn, scene_hash(plan.scene), with_threads, serial);
   serial.log("drawing with " + renderer.backend());
   for (const std::string& warning : plan.warnings) serial.log("warning: " + warning);
+  simulation = start_or_resume(plan, with_threads, std::move(simulation), serial);
+  // The report has the frames so far; that of a simulation at its start has frame 0, which is not drawn yet.
+  const bool at_start = simulation->report().steps == 0;
+  const int first = at_start ? 0 : simulation->report().frames.back().frame + 1;
 
-  const std::unique_ptr<Simulation> simulation = Simulation::create(plan, threads);
   std::string state;
   std::string error;
   try {
-    state = make_frames(plan, *simulation, renderer, serial, stop) ? "succeeded" : "cancelled";
+    state = make_frames(plan, *simulation, first, with_threads, renderer, serial, stop);
   } catch (const SimulationError& failure) {
     state = "failed";
     error = failure.what();

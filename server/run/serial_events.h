@@ -19,6 +19,10 @@ class SerialEvents final : public RunEvents {
     const std::lock_guard lock(mutex_);
     to_.frame(frame);
   }
+  void checkpoint(const CheckpointFile& checkpoint) override {
+    const std::lock_guard lock(mutex_);
+    to_.checkpoint(checkpoint);
+  }
   void log(const std::string& line) override {
     const std::lock_guard lock(mutex_);
     to_.log(line);

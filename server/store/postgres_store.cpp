@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <iterator>
 #include <mutex>
 #include <pqxx/pqxx>
 #include <stdexcept>
@@ -12,14 +15,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSchemaVersion = 1;
 constexpr auto kReconnectPause = std::chrono::milliseconds(100);
 
 /// Any number that other programs in the same database are unlikely to lock: "lather" in ASCII.
 constexpr const char* kLockSchema = "SELECT pg_advisory_xact_lock(118992968054130)";
 
-constexpr const char* kSchema = R"sql(
+/// Step i leads from version i to the next; a new database takes them all.
+constexpr const char* kSchemaSteps[] = {R"sql(
 CREATE TABLE lather_schema (version integer NOT NULL);
+INSERT INTO lather_schema VALUES (1);
 CREATE TABLE lather_jobs (
   sequence bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
   id text NOT NULL UNIQUE,
@@ -54,7 +58,18 @@ CREATE TABLE lather_frames (
   size bigint NOT NULL,
   attempt integer NOT NULL,
   PRIMARY KEY (job, number));
-)sql";
+)sql",
+                                        R"sql(
+CREATE TABLE lather_checkpoints (
+  job text NOT NULL REFERENCES lather_jobs (id) ON DELETE CASCADE,
+  attempt integer NOT NULL,
+  step bigint NOT NULL,
+  time double precision NOT NULL,
+  size bigint NOT NULL,
+  PRIMARY KEY (job, attempt, step));
+UPDATE lather_schema SET version = 2;
+)sql"};
+constexpr int kSchemaVersion = std::size(kSchemaSteps);
 
 // The database's clock, in ms since 1970 (the store's form) and as the end of a lease of $1 ms.
 #define LATHER_NOW_MS "floor(extract(epoch FROM clock_timestamp()) * 1000)::bigint"
@@ -63,9 +78,10 @@ CREATE TABLE lather_frames (
 #define LATHER_JOB_COLUMNS                                                                                  \
   "id, name, state, priority, created, started, ended, attempt, error, points, frame_rate, frame, frames, " \
   "time, fraction, step, seconds_per_frame, eta_seconds, coalesce(idempotency_key, ''), request_digest, "   \
-  "sequence"
+  "losses, coalesce((SELECT c.time FROM lather_checkpoints c WHERE c.job = lather_jobs.id"                  \
+  " ORDER BY c.attempt DESC, c.step DESC LIMIT 1), -1), sequence"
 
-constexpr int kSequenceColumn = 20;
+constexpr int kSequenceColumn = 22;
 
 constexpr const char* kInsert =
     "INSERT INTO lather_jobs (id, name, state, priority, created, points, frame_rate, frames,"
@@ -85,37 +101,42 @@ constexpr const char* kLease =
     " UPDATE lather_jobs SET state = 'running', attempt = attempt + 1, ended = 0,"
     "  started = " LATHER_NOW_MS ", lease_until = " LATHER_LEASE_END
     ","
-    "  frame = 0, time = 0, fraction = 0, step = 0, eta_seconds = -1"
+    "  eta_seconds = -1"
     " FROM first WHERE id = chosen RETURNING " LATHER_JOB_COLUMNS;
 
 constexpr const char* kHeartbeat =
     "UPDATE lather_jobs SET lease_until = " LATHER_LEASE_END
-    " WHERE id = $2 AND attempt = $3 AND state IN ('running', 'cancelling') RETURNING state";
+    " WHERE id = $2 AND attempt = $3 AND state IN ('running', 'pausing', 'cancelling') RETURNING state";
 
-constexpr const char* kReclaim =
-    "UPDATE lather_jobs SET losses = losses + 1, lease_until = NULL,"
-    "  state = CASE WHEN state = 'cancelling' THEN 'cancelled' WHEN losses >= 2 THEN 'failed'"
-    "   ELSE 'queued' END,"
-    "  ended = CASE WHEN state = 'cancelling' OR losses >= 2 THEN " LATHER_NOW_MS
-    " ELSE 0 END,"
-    "  error = CASE WHEN state = 'running' AND losses >= 2 THEN $1 ELSE error END"
-    " WHERE id IN (SELECT id FROM lather_jobs WHERE state IN ('running', 'cancelling')"
-    "  AND lease_until < clock_timestamp() FOR UPDATE SKIP LOCKED)";
+constexpr const char* kLost = "SELECT " LATHER_JOB_COLUMNS
+                              " FROM lather_jobs WHERE state IN ('running', 'pausing', 'cancelling')"
+                              " AND lease_until < clock_timestamp() FOR UPDATE SKIP LOCKED";
 
-constexpr const char* kLostTooOften =
-    "three agents that worked on this job were lost one after the other (their machine, their program or "
-    "their "
-    "way to the database). A job that needs more memory than its machine has does that: choose a larger "
-    "spacing";
+constexpr const char* kFellSilent =
+    "its agent fell silent (its machine, its program or its way to the database). A job that needs more "
+    "memory than its machine has does that: choose a larger spacing";
+
+constexpr const char* kWriteState =
+    "UPDATE lather_jobs SET state = $1, error = $2, losses = $3,"
+    " ended = CASE WHEN $4 THEN " LATHER_NOW_MS " ELSE 0 END WHERE id = $5";
+
+constexpr const char* kExtend =
+    "UPDATE lather_jobs SET scene = $1, plan = $2, fraction = fraction * frames / greatest(1, $3::integer),"
+    " frames = $3::integer, points = $4 WHERE id = $5";
 
 constexpr const char* kProgress =
     "UPDATE lather_jobs SET frame = $1, frames = $2, time = $3, fraction = $4, step = $5,"
-    " seconds_per_frame = $6, eta_seconds = $7 WHERE id = $8 AND attempt = $9 AND state = 'running'";
+    " seconds_per_frame = $6, eta_seconds = $7 WHERE id = $8 AND attempt = $9 AND state IN ('running', "
+    "'pausing')";
 
 constexpr const char* kPublish =
     "INSERT INTO lather_frames (job, number, sha256, size, attempt) VALUES ($1, $2, $3, $4, $5)"
     " ON CONFLICT (job, number) DO UPDATE SET sha256 = excluded.sha256, size = excluded.size,"
     " attempt = excluded.attempt";
+
+constexpr const char* kAddCheckpoint =
+    "INSERT INTO lather_checkpoints (job, attempt, step, time, size) VALUES ($1, $2, $3, $4, $5)"
+    " ON CONFLICT (job, attempt, step) DO UPDATE SET time = excluded.time, size = excluded.size";
 
 Job read_job(const pqxx::row& row) {
   Job job;
@@ -144,6 +165,8 @@ Job read_job(const pqxx::row& row) {
   next(job.progress.eta_seconds);
   next(job.idempotency_key);
   next(job.request_digest);
+  next(job.losses);
+  next(job.checkpoint_time);
   job.state = job_state_from_string(state);
   job.points = static_cast<std::uint64_t>(points);
   job.progress.step = static_cast<std::uint64_t>(step);
@@ -186,14 +209,12 @@ class PostgresStore final : public Store {
       : uri_(with_timeouts(uri)), settings_(settings) {
     transact([](pqxx::work& t) {
       t.exec(kLockSchema);
-      if (t.exec1("SELECT to_regclass('lather_schema') IS NULL")[0].as<bool>()) {
-        t.exec(kSchema);
-        t.exec_params("INSERT INTO lather_schema VALUES ($1)", kSchemaVersion);
-      }
-      const int version = t.exec1("SELECT version FROM lather_schema")[0].as<int>();
-      if (version != kSchemaVersion)
+      const bool fresh = t.exec1("SELECT to_regclass('lather_schema') IS NULL")[0].as<bool>();
+      const int version = fresh ? 0 : t.exec1("SELECT version FROM lather_schema")[0].as<int>();
+      if (version > kSchemaVersion)
         throw std::runtime_error("the database has schema version " + std::to_string(version) +
-                                 ", this build reads version " + std::to_string(kSchemaVersion));
+                                 ", this build reads up to version " + std::to_string(kSchemaVersion));
+      for (int step = version; step < kSchemaVersion; ++step) t.exec(kSchemaSteps[step]);
       return true;
     });
   }
@@ -271,6 +292,28 @@ class PostgresStore final : public Store {
     return move_if(id, attempt, to, error);
   }
 
+  std::optional<JobState> lose(const std::string& id, int attempt, const std::string& why) override {
+    return transact([&](pqxx::work& t) -> std::optional<JobState> {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || job->attempt != attempt || !is_at_work(job->state)) return std::nullopt;
+      return lose_in(t, *job, why);
+    });
+  }
+
+  bool requeue(const std::string& id, JobState from) override { return requeue_with(id, from, nullptr); }
+  bool extend(const std::string& id, const LongerRun& longer) override {
+    return requeue_with(id, JobState::kSucceeded, &longer);
+  }
+
+  bool set_priority(const std::string& id, int priority) override {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || has_ended(job->state)) return false;
+      t.exec_params("UPDATE lather_jobs SET priority = $1 WHERE id = $2", priority, id);
+      return true;
+    });
+  }
+
   bool set_progress(const std::string& id, int attempt, const JobProgress& p) override {
     return transact([&](pqxx::work& t) {
       return t.exec_params(kProgress, p.frame, p.frames, p.time, p.fraction,
@@ -288,11 +331,39 @@ class PostgresStore final : public Store {
     });
   }
 
-  std::vector<FrameRow> frames(const std::string& id) override {
+  bool add_checkpoint(const std::string& id, const CheckpointRow& checkpoint) override {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || job->attempt != checkpoint.attempt || !attempt_stands(job->state)) return false;
+      t.exec_params(kAddCheckpoint, id, checkpoint.attempt, static_cast<std::int64_t>(checkpoint.step),
+                    checkpoint.time, static_cast<std::int64_t>(checkpoint.size));
+      t.exec_params("UPDATE lather_jobs SET losses = 0 WHERE id = $1", id);
+      return true;
+    });
+  }
+
+  std::vector<CheckpointRow> checkpoints(const std::string& id) override {
+    return transact([&](pqxx::work& t) { return checkpoints_in(t, id); });
+  }
+
+  std::vector<CheckpointRow> drop_checkpoints(const std::string& id, std::size_t keep) override {
+    return transact([&](pqxx::work& t) {
+      std::vector<CheckpointRow> rows = checkpoints_in(t, id);
+      rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(keep, rows.size())));
+      for (const CheckpointRow& row : rows)
+        t.exec_params("DELETE FROM lather_checkpoints WHERE job = $1 AND attempt = $2 AND step = $3", id,
+                      row.attempt, static_cast<std::int64_t>(row.step));
+      return rows;
+    });
+  }
+
+  using Store::frames;
+  std::vector<FrameRow> frames(const std::string& id, int first) override {
     return transact([&](pqxx::work& t) {
       std::vector<FrameRow> found;
-      for (const pqxx::row& row : t.exec_params(
-               "SELECT number, sha256, size, attempt FROM lather_frames WHERE job = $1 ORDER BY number", id))
+      for (const pqxx::row& row : t.exec_params("SELECT number, sha256, size, attempt FROM lather_frames"
+                                                " WHERE job = $1 AND number >= $2 ORDER BY number",
+                                                id, first))
         found.push_back(read_frame(row));
       return found;
     });
@@ -363,7 +434,45 @@ class PostgresStore final : public Store {
   [[nodiscard]] std::int64_t term() const { return settings_.lease_term.count(); }
 
   static std::size_t reclaim_in(pqxx::work& t) {
-    return t.exec_params(kReclaim, kLostTooOften).affected_rows();
+    const pqxx::result rows = t.exec(kLost);
+    for (const pqxx::row& row : rows) lose_in(t, read_job(row), kFellSilent);
+    return rows.size();
+  }
+
+  static void write_state(pqxx::work& t, const std::string& id, JobState to, const std::string& error,
+                          int losses) {
+    t.exec_params(kWriteState, to_string(to), storable(error), losses, has_ended(to), id);
+  }
+
+  /// Of a row that is locked.
+  static JobState lose_in(pqxx::work& t, const Job& job, const std::string& why) {
+    const int losses = job.losses + 1;
+    const JobState next = after_loss(job.state, losses);
+    write_state(t, job.id, next, next == JobState::kFailed ? lost_too_often(why) : job.error, losses);
+    return next;
+  }
+
+  bool requeue_with(const std::string& id, JobState from, const LongerRun* longer) {
+    return transact([&](pqxx::work& t) {
+      const std::optional<Job> job = lock_job(t, id);
+      if (!job || job->state != from || !can_move(from, JobState::kQueued)) return false;
+      write_state(t, id, JobState::kQueued, "", 0);
+      if (longer)
+        t.exec_params(kExtend, longer->scene, longer->plan, longer->frames,
+                      static_cast<std::int64_t>(longer->points), id);
+      return true;
+    });
+  }
+
+  static std::vector<CheckpointRow> checkpoints_in(pqxx::work& t, const std::string& id) {
+    std::vector<CheckpointRow> found;
+    for (const pqxx::row& row :
+         t.exec_params("SELECT attempt, step, time, size FROM lather_checkpoints WHERE job = $1"
+                       " ORDER BY attempt DESC, step DESC",
+                       id))
+      found.push_back({row[0].as<int>(), static_cast<std::uint64_t>(row[1].as<std::int64_t>()),
+                       row[2].as<double>(), static_cast<std::uint64_t>(row[3].as<std::int64_t>())});
+    return found;
   }
 
   static std::optional<Job> lock_job(pqxx::work& t, const std::string& id) {
@@ -375,9 +484,7 @@ class PostgresStore final : public Store {
     return transact([&](pqxx::work& t) {
       const std::optional<Job> job = lock_job(t, id);
       if (!job || !can_move(job->state, to) || (attempt && job->attempt != *attempt)) return false;
-      t.exec_params("UPDATE lather_jobs SET state = $1, error = $2, ended = CASE WHEN $3 THEN " LATHER_NOW_MS
-                    " ELSE 0 END WHERE id = $4",
-                    to_string(to), to == JobState::kFailed ? storable(error) : job->error, has_ended(to), id);
+      write_state(t, id, to, to == JobState::kFailed ? error : job->error, job->losses);
       return true;
     });
   }

@@ -14,6 +14,9 @@
 /// Jobs and frames, kept. All methods may be called from any thread; an answered write is on the disk.
 /// Throws std::runtime_error when the database fails.
 ///
+/// Where a job may go from where it is, is said in one place, can_move() and after_loss() in
+/// server/job/job.h; both stores ask there.
+///
 /// A job that is worked on is leased: its attempt number is the fence, for a write that names an older one is
 /// refused. The PostgreSQL store serves agents on many machines, so a lease there runs out by the database's
 /// clock unless its agent renews it, and another agent takes the job as its next attempt. The SQLite store is
@@ -37,6 +40,14 @@ struct Submission {
   std::string plan;   ///< JSON
 };
 
+/// What changes when a finished job is made longer.
+struct LongerRun {
+  std::string scene;  ///< canonical JSON
+  std::string plan;   ///< JSON
+  int frames = 0;     ///< pictures in all
+  std::uint64_t points = 0;
+};
+
 class Store {
  public:
   virtual ~Store() = default;
@@ -55,12 +66,11 @@ class Store {
   /// Takes the first queued job (highest priority, then oldest) into its next attempt. Calls reclaim() first.
   [[nodiscard]] virtual std::optional<Job> lease() = 0;
 
-  /// Renews the lease of an attempt and says where its job is: running or cancelling. None when the attempt
-  /// has lost the job; it must stop then, for nothing it writes is taken any longer.
+  /// Renews the lease of an attempt and says where its job is: running, pausing or cancelling. None when the
+  /// attempt has lost the job; it must stop then, for nothing it writes is taken any longer.
   [[nodiscard]] virtual std::optional<JobState> heartbeat(const std::string& id, int attempt) = 0;
 
-  /// Ends leases that have run out: running jobs are queued again, or failed at the third loss; cancelling
-  /// ones are cancelled. Says how many.
+  /// Ends leases that have run out, each as after_loss() says. Says how many.
   virtual std::size_t reclaim() = 0;
 
   /// Moves a job along can_move(); false, and nothing changes, when there is no such job or no such
@@ -69,20 +79,43 @@ class Store {
   /// The same, only while `attempt` is the job's last one: for the agent that worked on it.
   virtual bool settle(const std::string& id, int attempt, JobState to, const std::string& error = {}) = 0;
 
+  /// The attempt has died, as `why` says: its job goes where after_loss() says, which is answered. None when
+  /// `attempt` is not the job's last one, or is not at work any more.
+  virtual std::optional<JobState> lose(const std::string& id, int attempt, const std::string& why) = 0;
+
+  /// Back into the queue from `from`, where the user has asked for it: losses and error are forgotten, frames
+  /// and checkpoints stay. False when the job is not there, or no way leads from there.
+  virtual bool requeue(const std::string& id, JobState from) = 0;
+  /// The same for a job that has succeeded, which is to run on.
+  virtual bool extend(const std::string& id, const LongerRun& longer) = 0;
+
+  /// False when there is no such job, or it has ended.
+  virtual bool set_priority(const std::string& id, int priority) = 0;
+
   /// Only while `attempt` stands; false otherwise.
   virtual bool set_progress(const std::string& id, int attempt, const JobProgress& progress) = 0;
   /// Adds a frame, or replaces an older attempt's. Only while `attempt` stands; false otherwise.
   virtual bool publish(const std::string& id, int attempt, const FrameRow& frame) = 0;
 
-  [[nodiscard]] virtual std::vector<FrameRow> frames(const std::string& id) = 0;  ///< by index
+  /// By index, from `first` on.
+  [[nodiscard]] virtual std::vector<FrameRow> frames(const std::string& id, int first) = 0;
+  [[nodiscard]] std::vector<FrameRow> frames(const std::string& id) { return frames(id, 0); }
   [[nodiscard]] virtual std::optional<FrameRow> frame(const std::string& id, int index) = 0;
   [[nodiscard]] virtual std::size_t count_frames(const std::string& id) = 0;
 
-  /// Removes a job that has ended, with its frames' rows; false when there is none or it has not ended.
+  /// Adds a checkpoint and forgets losses. Only while `attempt` stands; false otherwise.
+  virtual bool add_checkpoint(const std::string& id, const CheckpointRow& checkpoint) = 0;
+  /// By attempt, then by step, the last one first.
+  [[nodiscard]] virtual std::vector<CheckpointRow> checkpoints(const std::string& id) = 0;
+  /// Drops all but the `keep` last ones, and says which, so that their files can be removed.
+  virtual std::vector<CheckpointRow> drop_checkpoints(const std::string& id, std::size_t keep) = 0;
+
+  /// Removes a job that has ended, with the rows of its frames and checkpoints; false when there is none or
+  /// it has not ended.
   virtual bool remove(const std::string& id) = 0;
 
-  /// Before the first agent of this store starts, after a crash: running jobs that nobody holds are queued
-  /// again, cancelling ones are cancelled. Says how many.
+  /// Before the first agent of this store starts, after a crash: attempts that nobody holds any longer are
+  /// lost. Says how many.
   virtual std::size_t recover() = 0;
 };
 

@@ -50,10 +50,17 @@ class Blackbox : public ::testing::Test {
     return "/api/v1/jobs/" + id + rest;
   }
 
+  /// SHA-256 of the job's frames, as the server lists them.
+  std::vector<std::string> frame_hashes(const std::string& id) {
+    std::vector<std::string> hashes;
+    const Json listing = Json::parse(request(port(), "GET", path(id, "/frames")).body);
+    for (const Json& row : listing.at("frames")) hashes.push_back(row.at("sha256"));
+    return hashes;
+  }
+
   TemporaryDirectory directory_;
   std::unique_ptr<ServerProcess> server_;
 
- private:
   static Json scene(double duration) {
     return {{"lather", 1},
             {"name", "a small blob"},

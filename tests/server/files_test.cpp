@@ -1,5 +1,11 @@
 // Particles and skins over HTTP, and jobs that draw kept particles again.
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
 #include "render/render.h"
 #include "tests/server/blackbox.h"
 
@@ -97,6 +103,48 @@ TEST_F(Files, DrawingAgainIsRefusedWithAReason) {
   EXPECT_EQ(post(id, {{"scene", 1}}).status, 422);
   const std::string running = post_job(long_scene());
   EXPECT_EQ(post(running, Json::object()).status, 409);
+}
+
+TEST_F(Files, AFilmHasEveryFrameWhereThereIsFfmpeg) {
+  start();
+  Json scene = small_scene();
+  scene["output"]["width"] = 161;  // codecs want even sizes
+  const std::string id = finished_job(scene);
+  EXPECT_EQ(get(id, "/film.mp4?fps=0").status, 400);
+  EXPECT_EQ(get(id, "/film.mp4?speed=2").status, 400);
+  if (std::system("command -v ffprobe >/dev/null") != 0) GTEST_SKIP() << "not tried: there is no ffmpeg here";
+  for (const std::string ending : {"mp4", "webm"}) {
+    const RawResponse film = get(id, "/film." + ending);
+    ASSERT_EQ(film.status, 200) << film.body;
+    EXPECT_EQ(film.headers.at("content-type"), "video/" + ending);
+    EXPECT_EQ(film.headers.at("content-disposition"), "attachment; filename=\"" + id + '.' + ending + '"');
+    const std::filesystem::path file = directory_.path() / ("film." + ending);
+    const std::filesystem::path facts = directory_.path() / "facts";
+    std::ofstream(file, std::ios::binary) << film.body;
+    const std::string probe =
+        "ffprobe -v error -count_frames -show_entries stream=width,height,r_frame_rate,nb_read_frames -of "
+        "csv=p=0 '" +
+        file.string() + "' > '" + facts.string() + "'";
+    ASSERT_EQ(std::system(probe.c_str()), 0);
+    std::ifstream lines(facts);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "162,120,30/1,4") << ending;
+  }
+}
+
+TEST_F(Files, AServerWithoutFfmpegSaysSo) {
+  start({"--workers", "0", "--ffmpeg", "/nonexistent/ffmpeg"});
+  const RawResponse film = get(post_job(small_scene()), "/film.mp4");
+  EXPECT_EQ(film.status, 501);
+  EXPECT_NE(film.body.find("install ffmpeg"), std::string::npos) << film.body;
+}
+
+TEST_F(Files, AnEncoderThatFailsCutsTheFilmOff) {
+  start({"--ffmpeg", "/bin/false"});
+  const std::string id = finished_job(small_scene());
+  EXPECT_THROW(static_cast<void>(get(id, "/film.webm")), std::runtime_error) << "a body without an end";
+  EXPECT_EQ(request(port(), "GET", "/healthz").status, 200);
 }
 
 TEST_F(Files, AMeshByItsPathIsRefused) {

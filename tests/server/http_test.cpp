@@ -236,9 +236,15 @@ TEST(Protocol, EventsReadBackAndOtherLinesAreNone) {
   ASSERT_TRUE(read && std::holds_alternative<RunProgress>(*read));
   EXPECT_EQ(std::get<RunProgress>(*read).step, progress.step);
   EXPECT_EQ(std::get<RunProgress>(*read).fraction, 0.25);
-  const auto result = event_from_line(to_line(RunnerEvent(RunnerResult{"failed", "bytes \xff\n\"quoted\""})));
+  const auto result =
+      event_from_line(to_line(RunnerEvent(RunnerResult{"failed", "bytes \xff\n\"quoted\"", "files"})));
   ASSERT_TRUE(result && std::holds_alternative<RunnerResult>(*result));
   EXPECT_EQ(std::get<RunnerResult>(*result).state, "failed");
+  EXPECT_EQ(std::get<RunnerResult>(*result).cause, "files");
+  const auto checkpoint = event_from_line(to_line(RunnerEvent(CheckpointFile{12345, 0.1, 678})));
+  ASSERT_TRUE(checkpoint && std::holds_alternative<CheckpointFile>(*checkpoint));
+  EXPECT_EQ(std::get<CheckpointFile>(*checkpoint).step, 12345U);
+  EXPECT_EQ(std::get<CheckpointFile>(*checkpoint).time, 0.1);
   for (const char* line :
        {"", "{}", "[]", "{\"event\":\"frame\"}", "{\"event\":\"frame\",\"index\":\"x\"}", "nonsense"})
     EXPECT_FALSE(event_from_line(line)) << line;

@@ -41,12 +41,6 @@ bool is_blank(const render::Image& image) {
 
 class JobLife : public Blackbox {
  protected:
-  std::vector<std::string> frame_hashes(const std::string& id) {
-    std::vector<std::string> hashes;
-    const Json listing = Json::parse(request(port(), "GET", path(id, "/frames")).body);
-    for (const Json& row : listing.at("frames")) hashes.push_back(row.at("sha256"));
-    return hashes;
-  }
   std::string frame(const std::string& id, int index) {
     const RawResponse response =
         request(port(), "GET", path(id, "/frames/" + std::to_string(index) + ".png"));
@@ -157,20 +151,6 @@ TEST_F(JobLife, AnEndedJobCanBeDeletedAndARunningOneCannot) {
   EXPECT_FALSE(std::filesystem::exists(data() / "jobs" / id));
 }
 
-TEST_F(JobLife, AKilledRunnerFailsItsJobAlone) {
-  start();
-  const std::string victim = post_job(long_scene());
-  const std::string next = post_job(small_scene());
-  ASSERT_TRUE(has_frames(victim, 1));
-  const std::vector<pid_t> runners = server_->runners();
-  ASSERT_EQ(runners.size(), 1u);
-  ASSERT_EQ(::kill(runners[0], SIGKILL), 0);
-  ASSERT_TRUE(reaches(victim, "failed"));
-  EXPECT_NE(job(victim).at("error").get<std::string>().find("SIGKILL"), std::string::npos) << job(victim);
-  EXPECT_EQ(render::decode_png(frame(victim, 0)).width, 160) << "frames made before stay";
-  EXPECT_TRUE(reaches(next, "succeeded")) << job(next);
-}
-
 TEST_F(JobLife, AKilledServerLosesNoFinishedFrameAndNoQueuedJob) {
   start();
   const std::string finished = post_job(small_scene());
@@ -201,18 +181,6 @@ TEST_F(JobLife, AKilledServerLosesNoFinishedFrameAndNoQueuedJob) {
   EXPECT_EQ(job(running).at("attempt"), 2);
   EXPECT_EQ(job(running).at("frames"), 13);
   EXPECT_EQ(frame_hashes(queued), hashes) << "the same scene gives the same bytes";
-}
-
-TEST_F(JobLife, SigtermEndsTheServerSoonAndQueuesItsJobAgain) {
-  start();
-  const std::string id = post_job(long_scene());
-  ASSERT_TRUE(has_frames(id, 1));
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(server_->end(SIGTERM), 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-  start({"--workers", "0"});
-  EXPECT_EQ(state(id), "queued");
-  EXPECT_GE(job(id).at("frames"), 1);
 }
 
 TEST_F(JobLife, ASecondServerOnTheSameDataIsRefused) {

@@ -1,5 +1,8 @@
 #include "tests/server/store_test.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -46,7 +49,7 @@ std::unique_ptr<StorePlace> new_sqlite_place() {
   return std::make_unique<SqlitePlace>();
 }
 
-INSTANTIATE_TEST_SUITE_P(Databases, StoreTest, ::testing::Values(StoreKind{"Sqlite", new_sqlite_place}));
+INSTANTIATE_TEST_SUITE_P(Sqlite, StoreTest, ::testing::Values(StoreKind{"Sqlite", new_sqlite_place}));
 
 TEST_P(StoreTest, KeepsAJobAndItsDocumentsAcrossReopening) {
   const std::string id = add("foam", 3);
@@ -169,6 +172,126 @@ TEST_P(StoreTest, AHeartbeatSaysWhetherToGoOnOrToCancel) {
   EXPECT_FALSE(store_->heartbeat(id, 1));
 }
 
+TEST_P(StoreTest, KeepsCheckpointsOfTheAttemptThatStandsTheLastOnesFirst) {
+  const std::string id = add("foam");
+  EXPECT_FALSE(store_->add_checkpoint(id, {1, 10, 0.1, 1000}));
+  EXPECT_LT(store_->find(id)->checkpoint_time, 0);
+  ASSERT_TRUE(store_->lease());
+  EXPECT_TRUE(store_->add_checkpoint(id, {1, 10, 0.1, 1000}));
+  EXPECT_TRUE(store_->add_checkpoint(id, {1, 30, 0.3, 3000}));
+  EXPECT_TRUE(store_->add_checkpoint(id, {1, 30, 0.3, 3000})) << "the same again is no other";
+  EXPECT_FALSE(store_->add_checkpoint(id, {2, 40, 0.4, 4000}));
+  ASSERT_TRUE(store_->settle(id, 1, JobState::kQueued));
+  EXPECT_FALSE(store_->add_checkpoint(id, {1, 50, 0.5, 5000}));
+  ASSERT_TRUE(store_->lease());
+  // It could not use the later checkpoint: what it makes is good, though of an earlier step.
+  EXPECT_TRUE(store_->add_checkpoint(id, {2, 20, 0.2, 2000}));
+  EXPECT_EQ(store_->find(id)->checkpoint_time, 0.2);
+  reopen();
+  std::vector<CheckpointRow> rows = store_->checkpoints(id);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].step, 20U);
+  EXPECT_EQ(rows[0].attempt, 2);
+  EXPECT_EQ(rows[1].step, 30U);
+  EXPECT_EQ(rows[2].step, 10U);
+  rows = store_->drop_checkpoints(id, 2);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].step, 10U);
+  EXPECT_EQ(rows[0].attempt, 1);
+  EXPECT_TRUE(store_->drop_checkpoints(id, 2).empty());
+  EXPECT_EQ(store_->checkpoints(id).size(), 2U);
+  ASSERT_TRUE(store_->move(id, JobState::kFailed, "why"));
+  EXPECT_TRUE(store_->remove(id));
+  EXPECT_TRUE(store_->checkpoints(id).empty());
+}
+
+TEST_P(StoreTest, ThreeLossesWithoutACheckpointBetweenThemFailAJob) {
+  const std::string id = add("foam");
+  const auto lose = [&](int attempt) {
+    EXPECT_EQ(store_->lease()->attempt, attempt);
+    return store_->lose(id, attempt, "it burnt");
+  };
+  EXPECT_EQ(lose(1), JobState::kQueued);
+  EXPECT_EQ(lose(2), JobState::kQueued);
+  EXPECT_EQ(store_->find(id)->losses, 2);
+  EXPECT_EQ(store_->lease()->attempt, 3);
+  ASSERT_TRUE(store_->add_checkpoint(id, {3, 10, 0.1, 1000}));
+  EXPECT_EQ(store_->find(id)->losses, 0);
+  EXPECT_EQ(store_->lose(id, 3, "it burnt"), JobState::kQueued);
+  EXPECT_EQ(lose(4), JobState::kQueued);
+  EXPECT_EQ(lose(5), JobState::kFailed);
+  const std::string error = store_->find(id)->error;
+  EXPECT_NE(error.find("3 attempts in a row"), std::string::npos) << error;
+  EXPECT_NE(error.find("it burnt"), std::string::npos) << error;
+  EXPECT_FALSE(store_->lose(id, 5, "late"));
+  EXPECT_FALSE(store_->lose(new_job_id(), 1, "unknown"));
+  // A retry forgets them.
+  ASSERT_TRUE(store_->requeue(id, JobState::kFailed));
+  EXPECT_EQ(store_->find(id)->error, "");
+  EXPECT_EQ(store_->find(id)->ended, 0);
+  EXPECT_EQ(lose(6), JobState::kQueued);
+}
+
+TEST_P(StoreTest, ALossWhilePausingOrCancellingDoesWhatWasAsked) {
+  const std::string pausing = add("foam");
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->move(pausing, JobState::kPausing));
+  EXPECT_EQ(store_->heartbeat(pausing, 1), JobState::kPausing);
+  EXPECT_TRUE(store_->publish(pausing, 1, {0, "sha", 10, 1})) << "frames before the checkpoint still count";
+  EXPECT_TRUE(store_->set_progress(pausing, 1, JobProgress{}));
+  EXPECT_EQ(store_->lose(pausing, 1, "it burnt"), JobState::kPaused);
+  EXPECT_FALSE(store_->lease()) << "a paused job waits";
+  EXPECT_TRUE(store_->requeue(pausing, JobState::kPaused));
+  ASSERT_TRUE(store_->lease());
+  ASSERT_TRUE(store_->move(pausing, JobState::kCancelling));
+  EXPECT_EQ(store_->lose(pausing, 2, "it burnt"), JobState::kCancelled);
+}
+
+TEST_P(StoreTest, QueuesAgainOnlyFromWhereTheJobIs) {
+  const std::string id = add("foam");
+  EXPECT_FALSE(store_->requeue(id, JobState::kQueued));
+  EXPECT_FALSE(store_->requeue(id, JobState::kPaused));
+  ASSERT_TRUE(store_->lease());
+  EXPECT_FALSE(store_->requeue(id, JobState::kPaused));
+  EXPECT_FALSE(store_->requeue(new_job_id(), JobState::kFailed));
+}
+
+TEST_P(StoreTest, AFinishedJobIsMadeLongerAndKeepsItsFrames) {
+  const std::string id = add("foam");
+  const LongerRun longer = {"{\"scene\":2}", "{\"plan\":2}", 8, 4321};
+  EXPECT_FALSE(store_->extend(id, longer)) << "it has not succeeded";
+  ASSERT_TRUE(store_->lease());
+  JobProgress progress;
+  progress.frames = 4;
+  progress.fraction = 1;
+  ASSERT_TRUE(store_->set_progress(id, 1, progress));
+  ASSERT_TRUE(store_->publish(id, 1, {0, "sha", 10, 1}));
+  ASSERT_TRUE(store_->settle(id, 1, JobState::kSucceeded));
+  EXPECT_TRUE(store_->extend(id, longer));
+  EXPECT_FALSE(store_->extend(id, longer)) << "once is enough";
+  const std::optional<Job> job = store_->lease();
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->attempt, 2);
+  EXPECT_EQ(job->progress.frames, 8);
+  EXPECT_EQ(job->progress.fraction, 0.5);
+  EXPECT_EQ(job->points, 4321U);
+  EXPECT_EQ(job->ended, 0);
+  EXPECT_EQ(store_->plan(id), longer.plan);
+  EXPECT_EQ(store_->scene(id), longer.scene);
+  EXPECT_EQ(store_->count_frames(id), 1U);
+}
+
+TEST_P(StoreTest, PriorityMayChangeUntilAJobEnds) {
+  add("first");
+  const std::string second = add("second");
+  EXPECT_TRUE(store_->set_priority(second, 5));
+  EXPECT_EQ(store_->lease()->id, second);
+  ASSERT_TRUE(store_->settle(second, 1, JobState::kSucceeded));
+  EXPECT_FALSE(store_->set_priority(second, 6));
+  EXPECT_EQ(store_->find(second)->priority, 5);
+  EXPECT_FALSE(store_->set_priority(new_job_id(), 1));
+}
+
 TEST(SqliteStore, RecoveryQueuesRunningJobsAndCancelsCancellingOnes) {
   SqlitePlace place;
   std::unique_ptr<Store> store = place.open();
@@ -188,8 +311,39 @@ TEST(SqliteStore, RecoveryQueuesRunningJobsAndCancelsCancellingOnes) {
   store = place.open();
   EXPECT_EQ(store->recover(), 2u);
   EXPECT_EQ(store->find(running)->state, JobState::kQueued);
+  EXPECT_EQ(store->find(running)->losses, 1);
   EXPECT_EQ(store->find(cancelling)->state, JobState::kCancelled);
   EXPECT_EQ(store->find(queued)->state, JobState::kQueued);
+}
+
+TEST(SqliteStore, ADatabaseOfVersion1IsBroughtUpToDate) {
+  TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "lather.db";
+  std::string id;
+  {
+    const std::unique_ptr<Store> store = open_sqlite_store(file);
+    id = new_job_id();
+    Submission submission = sample_submission("old");
+    submission.job.id = id;
+    store->add(submission);
+  }
+  {  // what version 2 added is taken away again
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    database.exec(
+        "DROP TABLE checkpoints; ALTER TABLE jobs DROP COLUMN losses; UPDATE schema SET version = 1");
+  }
+  const std::unique_ptr<Store> store = open_sqlite_store(file);
+  EXPECT_EQ(store->lease()->id, id);
+  EXPECT_TRUE(store->add_checkpoint(id, {1, 10, 0.1, 1000}));
+  EXPECT_EQ(store->find(id)->losses, 0);
+}
+
+TEST(SqliteStore, ADatabaseOfALaterVersionIsRefused) {
+  TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "lather.db";
+  static_cast<void>(open_sqlite_store(file));
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("UPDATE schema SET version = 99");
+  EXPECT_THROW(static_cast<void>(open_sqlite_store(file)), std::runtime_error);
 }
 
 TEST_P(StoreTest, PagesThroughAllJobsNewestFirstWhileNewOnesArrive) {

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -21,14 +22,20 @@ class Workers : public Blackbox {
   Workers() { start({"--store", store_, "--workers", "0"}); }
 
   std::unique_ptr<Program> start_worker() {
-    const std::vector<std::string> arguments = {"worker",      "--store",         store_,
-                                                "--artifacts", data().string(),   "--threads",
-                                                "1",           "--lease-seconds", "2"};
+    const std::vector<std::string> arguments = {
+        "worker", "--store",         store_, "--artifacts",          data().string(), "--threads",
+        "1",      "--lease-seconds", "2",    "--checkpoint-seconds", "0.05"};
     return std::make_unique<Program>(arguments, directory_.path() / "worker.log", "working on");
   }
   static std::string environment_of(pid_t pid) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/environ", std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  int pictures_of(const std::string& id) {
+    int pictures = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(data() / "jobs" / id))
+      pictures += file.path().extension() == ".png" ? 1 : 0;
+    return pictures;
   }
   static Json scene_of_13_frames() {
     Json scene = small_scene();
@@ -73,6 +80,31 @@ TEST_F(Workers, FinishTheJobOfOneThatWasKilledAsANewAttempt) {
   ASSERT_TRUE(reaches(id, "succeeded")) << job(id);
   EXPECT_EQ(job(id).at("attempt"), 2);
   expect_all_frames(id, 13);
+}
+
+TEST_F(Workers, ThatFrozePastTheirLeaseChangeNothingWhenTheyThaw) {
+  const std::string undisturbed = post_job(scene_of_13_frames());
+  std::unique_ptr<Program> frozen = start_worker();
+  ASSERT_TRUE(reaches(undisturbed, "succeeded")) << job(undisturbed);
+  const std::string id = post_job(scene_of_13_frames());
+  ASSERT_TRUE(has_frames(id, 2));
+  const std::vector<pid_t> runners = frozen->runners();
+  ASSERT_EQ(runners.size(), 1u);
+  ASSERT_EQ(::kill(frozen->pid(), SIGSTOP), 0);
+  ASSERT_EQ(::kill(runners[0], SIGSTOP), 0);
+  const std::unique_ptr<Program> other = start_worker();
+  ASSERT_TRUE(eventually([&] { return job(id).at("attempt") == 2; }));
+  // The runner thaws first: it draws on, and writes files that nobody asked for.
+  ASSERT_EQ(::kill(runners[0], SIGCONT), 0);
+  ASSERT_TRUE(reaches(id, "succeeded")) << job(id);
+  ASSERT_EQ(::kill(frozen->pid(), SIGCONT), 0);
+  EXPECT_TRUE(eventually([&] { return frozen->runners().empty(); })) << "it ends what it has lost";
+  expect_all_frames(id, 13);
+  EXPECT_EQ(frame_hashes(id), frame_hashes(undisturbed));
+  EXPECT_EQ(job(id).at("attempt"), 2);
+  EXPECT_EQ(state(id), "succeeded");
+  EXPECT_TRUE(eventually([&] { return pictures_of(id) == 13; })) << "its late files are swept away";
+  EXPECT_TRUE(has_frames(post_job(scene_of_13_frames()), 13)) << "both work on";
 }
 
 TEST_F(Workers, HonourACancelOfTheServerWithinTwoSeconds) {
