@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "render/render.h"
 
 namespace lather::render {
 
@@ -12,6 +15,8 @@ struct ChartSeries {
   std::vector<double> x;
   std::vector<double> y;  ///< as many as x
   bool dashed = false;
+  bool dots = false;                                ///< a disc at each point in place of a curve
+  std::optional<std::size_t> color = std::nullopt;  ///< that of the series in this place; none: its own
 };
 
 struct ChartAxis {
@@ -29,5 +34,9 @@ struct Chart {
 /// The chart as an SVG document of 800 x 500, legible without a style sheet or fonts of its own; text is
 /// escaped. Axes hold all points; with none to show they run from 0 to 1, or from 1 to 10.
 [[nodiscard]] std::string to_svg(const Chart& chart);
+
+/// The same as a picture, twice as large. Its text is printable ASCII, and the label of the y axis lies above
+/// the axis.
+[[nodiscard]] Image draw_chart(const Chart& chart);
 
 }  // namespace lather::render

@@ -21,7 +21,9 @@ Json json_of(const RunProgress& p) {
           {"fraction", p.fraction},
           {"step", p.step},
           {"seconds_per_frame", p.seconds_per_frame},
-          {"eta_seconds", p.eta_seconds}};
+          {"eta_seconds", p.eta_seconds},
+          {"budget_seconds", p.budget_seconds},
+          {"expected_seconds", p.expected_seconds}};
 }
 
 Json json_of(const FrameFile& f) {
@@ -50,6 +52,8 @@ RunProgress progress_of(const Json& json) {
   json.at("step").get_to(p.step);
   json.at("seconds_per_frame").get_to(p.seconds_per_frame);
   json.at("eta_seconds").get_to(p.eta_seconds);
+  json.at("budget_seconds").get_to(p.budget_seconds);
+  json.at("expected_seconds").get_to(p.expected_seconds);
   return p;
 }
 

@@ -23,6 +23,9 @@ struct AllOptions {
   SubmitOptions submit;
   RheometerOptions rheometer;
   VerifyOptions verify;
+  TradeoffOptions tradeoff;
+  ScenesOptions needs;
+  ScenesOptions forecast;
   BenchOptions bench;
   SoakOptions soak;
   bool version_json = false;
@@ -219,6 +222,66 @@ void add_verify(CLI::App& program, AllOptions& all) {
   command.callback([&all] { all.exit_code = verify_command(all.verify); });
 }
 
+void add_tradeoff(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "tradeoff", "Measure error against computing time over many settings of exact cases and scenes");
+  TradeoffOptions& o = all.tradeoff;
+  command.add_option(
+      "SCENE|CASE", o.subjects,
+      "scene files, each against its own finest run, and names of exact cases; none: all cases");
+  command.add_option("--size", o.size, "of the scenes, e.g. preview");
+  command.add_option("--set", o.set, "change a field of the scenes: /json/pointer=value; may be repeated")
+      ->allow_extra_args(false);
+  CLI::Option* knobs =
+      command
+          .add_option(
+              "--knob", o.knobs,
+              "NAME or NAME=VALUE,VALUE...; given several times, all combinations are run; without it "
+              "each knob is turned alone")
+          ->allow_extra_args(false);
+  command.add_flag("--qualities", o.qualities, "the combinations that a scene's \"quality\" is picked from")
+      ->excludes(knobs);
+  command.add_flag("--quick", o.quick, "one repetition, and one value of each knob");
+  command.add_option("--repeats", o.repeats, "of each run, for the noise of its time")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command.add_option("--threads", o.threads, "threads of a step; 0: all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--json", o.json, "write all that was measured into this file");
+  command.add_option("--chart", o.chart, "draw error over time into this file (.png or .svg)");
+  command.callback([&all] { all.exit_code = tradeoff_command(all.tradeoff); });
+}
+
+void add_scenes(CLI::App& command, ScenesOptions& o) {
+  command.add_option("SCENE", o.scenes, "scene files")->required();
+  command.add_option("--size", o.size, "of the scenes that name it, e.g. preview");
+  command.add_option("--set", o.set, "change a field of all: /json/pointer=value; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--threads", o.threads, "threads of a step; 0: all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--seconds", o.seconds, "of a scene's trial")
+      ->check(CLI::Range(0.01, 600.0))
+      ->capture_default_str();
+  command.add_option("--json", o.json, "write the table into this file");
+}
+
+void add_needs(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "needs", "Say which fields a scene's points carry and which stages run, with their shares of the time");
+  add_scenes(command, all.needs);
+  command.callback([&all] { all.exit_code = needs_command(all.needs); });
+}
+
+void add_forecast(CLI::App& program, AllOptions& all) {
+  CLI::App& command = *program.add_subcommand(
+      "forecast",
+      "Run scenes and set their computing time beside what a short trial says, as budgets use it");
+  add_scenes(command, all.forecast);
+  command.callback([&all] { all.exit_code = forecast_command(all.forecast); });
+}
+
 void add_bench(CLI::App& program, AllOptions& all) {
   CLI::App& command = *program.add_subcommand(
       "bench", "Measure how fast the solvers are on this machine, beside what its cores can do");
@@ -295,6 +358,9 @@ int parse_and_run(int argc, char** argv) {
   add_submit(program, all);
   add_rheometer(program, all);
   add_verify(program, all);
+  add_tradeoff(program, all);
+  add_needs(program, all);
+  add_forecast(program, all);
   add_bench(program, all);
   add_soak(program, all);
   add_rest(program, all);

@@ -118,6 +118,33 @@ struct VerifyOptions {
 /// 0 if all cases pass, else 1.
 int verify_command(const VerifyOptions& options);
 
+struct TradeoffOptions {
+  std::vector<std::string> subjects;  ///< exact cases, or scene files; none: all cases
+  std::string size;                   ///< of the scenes
+  std::vector<std::string> set;       ///< in the scenes: "/json/pointer=value"
+  std::vector<std::string> knobs;     ///< whose combinations are run; none: each knob alone
+  bool qualities = false;             ///< the combinations that qualities are picked from
+  bool quick = false;                 ///< one repetition, one value of each knob
+  int repeats = 3;
+  int threads = 1;
+  std::filesystem::path json;   ///< file to write; "": none
+  std::filesystem::path chart;  ///< .png or .svg; "": none
+};
+int tradeoff_command(const TradeoffOptions& options);
+
+struct ScenesOptions {
+  std::vector<std::filesystem::path> scenes;
+  std::string size;              ///< taken of the scenes that name it
+  std::vector<std::string> set;  ///< "/json/pointer=value"
+  int threads = 1;
+  double seconds = 0.3;        ///< of a trial
+  std::filesystem::path json;  ///< file to write; "": none
+};
+/// Fields, bytes and stages of scenes.
+int needs_command(const ScenesOptions& options);
+/// How long whole runs take, beside what a trial says.
+int forecast_command(const ScenesOptions& options);
+
 struct BenchOptions {
   std::vector<std::string> cases;  ///< names, or how they begin; none: all
   std::vector<std::uint64_t> points = {60'000, 500'000, 2'000'000};

@@ -4,6 +4,7 @@
 #include "server/command/commands.h"
 #include "server/command/run_events.h"
 #include "server/command/scene_source.h"
+#include "server/run/budget.h"
 #include "server/run/run.h"
 #include "sim/plan/plan.h"
 
@@ -31,7 +32,7 @@ int conclude(const Report& report, const RunOptions& options) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const Plan plan = make_plan(read_scene(options.scene));
+  const Plan plan = plan_in_budget(read_scene(options.scene), options.threads, options.render_backend);
   const std::atomic<Stop>& interrupted = heed_interrupts();
   std::filesystem::create_directories(options.out);
   write_whole(options.out / "plan.json", to_json(plan));

@@ -12,13 +12,21 @@ namespace {
 
 std::atomic<Stop> interrupted{Stop::kNo};
 
+/// Whether the time that a budget allows will do, at the speed so far.
+std::string budget_text(const RunProgress& progress) {
+  if (progress.budget_seconds <= 0 || progress.expected_seconds < 0) return "";
+  const bool holds = progress.expected_seconds <= progress.budget_seconds;
+  return ", " + duration_text(progress.expected_seconds) + " of " + duration_text(progress.budget_seconds) +
+         (holds ? "" : ": over the budget");
+}
+
 class EventsForPeople final : public RunEvents {
  public:
   void progress(const RunProgress& progress) override {
     char text[96];
     std::snprintf(text, sizeof text, "frame %d of %d, step %llu", progress.frame, progress.frames - 1,
                   static_cast<unsigned long long>(progress.step));
-    bar_.show(progress.fraction, progress.eta_seconds, text);
+    bar_.show(progress.fraction, progress.eta_seconds, text + budget_text(progress));
   }
   void frame(const FrameFile&) override {}
   void checkpoint(const CheckpointFile&) override {}

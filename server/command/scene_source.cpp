@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "sim/scene/value.h"
 #include "sim/shape/mesh_file.h"
 
 namespace lather::server {
@@ -58,6 +59,12 @@ MeshSource meshes_beside(const std::filesystem::path& scene_file) {
 Scene read_scene(const SceneSource& source) {
   return parse_scene(read_text(source.file), source.size, read_overrides(source.set),
                      meshes_beside(source.file));
+}
+
+Scene scene_of(const ScenesOptions& options, const std::filesystem::path& file) {
+  const Value document = parse_json(read_text(file));
+  const bool sized = at_pointer(document, "/sizes" + pointer_token(options.size)) != nullptr;
+  return read_scene({file, sized ? options.size : "", options.set});
 }
 
 void print_problems(const std::string& what, const std::vector<Problem>& problems) {

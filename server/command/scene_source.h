@@ -19,6 +19,9 @@ namespace lather::server {
 
 [[nodiscard]] Scene read_scene(const SceneSource& source);
 
+/// One of several scenes, at their size where it names one of that name.
+[[nodiscard]] Scene scene_of(const ScenesOptions& options, const std::filesystem::path& file);
+
 /// For people: each problem with its place, its value and what is allowed.
 void print_problems(const std::string& what, const std::vector<Problem>& problems);
 

@@ -8,6 +8,7 @@
 
 #include "server/artifacts/digest.h"
 #include "server/http/problem.h"
+#include "server/run/budget.h"
 
 namespace lather::server {
 namespace {
@@ -120,6 +121,9 @@ Plan plan_envelope(const Envelope& envelope, const JobLimits& limits) {
     const Scene scene = parse_scene(envelope.scene, envelope.size, envelope.overrides);
     check_before_planning(scene, limits);
     Plan plan = make_plan(scene);
+    check_plan(plan, limits);
+    if (!scene.budget) return plan;
+    plan = plan_in_budget(scene, 0, estimate_drawing(scene.output));
     check_plan(plan, limits);
     return plan;
   } catch (const InputError& error) {

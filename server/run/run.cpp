@@ -13,6 +13,7 @@
 #include "server/run/checkpoint_file.h"
 #include "server/run/render_thread.h"
 #include "server/run/serial_events.h"
+#include "sim/scene/quality.h"
 #include "sim/simulation.h"
 
 namespace lather::server {
@@ -44,13 +45,16 @@ class ProgressMeter {
     told.time_step = now.time_step;
     told.step = now.step;
     told.fraction = fraction_at(now.time);
+    if (plan_.scene.budget) told.budget_seconds = plan_.scene.budget->seconds;
     const double spent = seconds_since(start_);
     if (told.fraction > first_fraction_) {
       const double done = told.fraction - first_fraction_;
       told.eta_seconds = spent * (1 - told.fraction) / done;
+      told.expected_seconds = spent / done;
       told.seconds_per_frame = spent / (done * std::max(1, plan_.frames - 1));
     }
     events_.progress(told);
+    warn_of_the_budget(told);
   }
 
  private:
@@ -59,12 +63,25 @@ class ProgressMeter {
     return end > 0 ? std::clamp(time / end, 0.0, 1.0) : 1.0;
   }
 
+  /// Once, when a tenth of the run has shown how fast it is.
+  void warn_of_the_budget(const RunProgress& told) {
+    const bool over = told.budget_seconds > 0 && told.expected_seconds > told.budget_seconds;
+    if (warned_ || !over || told.fraction < 0.1) return;
+    warned_ = true;
+    char text[96];
+    std::snprintf(text, sizeof text,
+                  "warning: the run will take %.3g s at its speed so far, over its budget of %.3g s",
+                  told.expected_seconds, told.budget_seconds);
+    events_.log(text);
+  }
+
   const Plan& plan_;
   const double first_fraction_;
   RunEvents& events_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_told_{};
   int last_frame_ = -1;
+  bool warned_ = false;
 };
 
 /// Takes checkpoints of a simulation between its steps: by the clock, and so rarely that the steps wait for
@@ -158,6 +175,19 @@ std::string make_frames(const Plan& plan, Simulation& simulation, int first, con
   return "succeeded";
 }
 
+/// What the budget asked for and was promised, beside what the run took.
+BudgetReport kept(const Plan& plan, double seconds) {
+  const BudgetChoice& choice = *plan.choices.budget;
+  BudgetReport report;
+  report.seconds = plan.scene.budget->seconds;
+  report.error = plan.scene.budget->error;
+  report.quality = quality_point(plan.scene.solver, choice.quality).name;
+  report.predicted_seconds = choice.seconds;
+  report.predicted_error = choice.error;
+  report.actual_seconds = seconds;
+  return report;
+}
+
 }  // namespace
 
 Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, const std::atomic<Stop>& stop) {
@@ -165,6 +195,7 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   RunSettings with_threads = settings;
   with_threads.threads = thread_count(settings.threads);
   const int threads = with_threads.threads;
+  const Clock::time_point start = Clock::now();
   std::unique_ptr<Simulation> simulation = Simulation::create(plan, threads);
   const Scene drawn = settings.resume_from.empty() ? plan.scene : with_camera(plan.scene, *simulation);
   RenderThread renderer(drawn, scene_hash(plan.scene), with_threads, serial);
@@ -191,6 +222,9 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   report.render_backend = renderer.backend();
   report.render_seconds = renderer.seconds();
   report.threads = threads;
+  // Of a run that went on from a checkpoint nobody knows how long it took before.
+  if (plan.scene.budget && plan.choices.budget && at_start)
+    report.budget = kept(plan, seconds_since(start));
   if (!report.probes.empty()) write_whole(settings.probes, probes_csv(report.probes));
   write_whole(settings.report, to_json(report));
   return report;

@@ -41,6 +41,8 @@ struct RunProgress {
   std::uint64_t step = 0;
   double seconds_per_frame = 0;  ///< wall clock, mean so far
   double eta_seconds = -1;       ///< wall clock; negative: not known yet
+  double budget_seconds = 0;     ///< of the whole run, wall clock; 0: it has none
+  double expected_seconds = -1;  ///< of the whole run at the speed so far; negative: not known yet
 };
 
 struct FrameFile {

@@ -3,15 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "sim/plan/memory.h"
 #include "sim/plan/planned_fields.h"
 #include "sim/plan/seed.h"
 #include "sim/plan/stages.h"
 #include "sim/plan/step_bound.h"
+#include "sim/scene/quality.h"
 
 namespace lather {
 namespace {
+
+/// Numbers by what they are worth: 2 and 2.0 are the same.
+bool same(const Value& a, const Value& b) {
+  const auto number_of = [](const Value& value) -> std::optional<double> {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*whole);
+    if (const auto* real = std::get_if<double>(&value.data)) return *real;
+    return std::nullopt;
+  };
+  const std::optional<double> left = number_of(a);
+  return left ? left == number_of(b) : write_json(a) == write_json(b);
+}
 
 std::string number(double value, const char* unit) {
   char text[64];
@@ -67,6 +80,27 @@ std::vector<std::string> mpm_stages(const Scene& scene) {
   return stages;
 }
 
+/// Every key that the scene's quality sets, with what the scene has there.
+std::vector<QualityKey> quality_keys(const Scene& scene, Quality quality) {
+  std::vector<QualityKey> keys;
+  if (quality == Quality::kOwn) return keys;
+  const Value document = parse_json(to_json(scene));
+  const std::function<void(const Value&, const std::string&)> visit = [&](const Value& set,
+                                                                          const std::string& at) {
+    for (const auto& [key, value] : *set.object()) {
+      const std::string pointer = at + "/" + key;
+      if (value.object() != nullptr) {
+        visit(value, pointer);
+        continue;
+      }
+      const Value* used = at_pointer(document, pointer);
+      keys.push_back({pointer, write_json(*used), same(*used, value)});
+    }
+  };
+  visit(parse_json(quality_point(scene.solver, quality).numerics), "/numerics");
+  return keys;
+}
+
 /// The material's viscosity at a shear rate of 1/s, Pa s: a flow curve has one of its own only where it is
 /// Newtonian. 0 where the material is no fluid, or has none.
 double own_viscosity(const Material& material) {
@@ -75,9 +109,15 @@ double own_viscosity(const Material& material) {
   return 0;
 }
 
-void warn_of_numerical_viscosity(Plan& plan, const Material& material, double numerical) {
-  const double own = own_viscosity(material);
-  if (own == 0 || numerical <= own) return;
+void warn_of_numerical_viscosity(Plan& plan, const PlannedMaterial& material) {
+  const double own = material.own_viscosity;
+  const double numerical = material.numerical_viscosity;
+  if (own == 0) return;
+  if (material.step_viscosity > own)
+    plan.warnings.push_back("Material \"" + material.name + "\": the time step adds a viscosity of " +
+                            number(material.step_viscosity, "Pa s") + ", more than the material's own (" +
+                            number(own, "Pa s at 1/s") + "); take shorter steps where flow matters.");
+  if (numerical <= own) return;
   const bool grid = plan.scene.solver == Solver::kMpm;
   plan.warnings.push_back(
       "Material \"" + material.name + "\": the " + (grid ? "FLIP/PIC blend" : "blend of velocities") +
@@ -128,7 +168,7 @@ void warn(Plan& plan) {
   const Scene& s = plan.scene;
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     const PlannedMaterial& m = plan.materials[i];
-    warn_of_numerical_viscosity(plan, s.materials[i], m.numerical_viscosity);
+    warn_of_numerical_viscosity(plan, m);
     if (m.points > 0 && m.points < 100)
       plan.warnings.push_back("Material \"" + m.name + "\" has only " + std::to_string(m.points) +
                               " points.");
@@ -139,6 +179,8 @@ void warn(Plan& plan) {
     plan.warnings.push_back(
         "/numerics/subgrid_removal removes nothing: only weak points go, and no material has a finite "
         "tear_threshold.");
+  if (s.budget && !plan.choices.budget)
+    plan.warnings.push_back("The budget is not looked at here: the numerics are the scene's own.");
   warn_of_colours(plan);
   warn_of_volumes(plan);
   warn_of_the_step(plan);
@@ -170,6 +212,7 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
   plan.time_step = frame_span / per_frame;
   plan.steps = static_cast<std::uint64_t>(per_frame * scene.last_frame());
   plan.scalars = planned_scalars(scene);
+  plan.quality = quality_keys(scene, plan.chosen_quality());
 
   const PointCounts points = count_points(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -185,6 +228,8 @@ Plan make_plan(const Scene& scene, const Choices& choices) {
     }
     m.bytes_per_point = layout.stride / kTile;
     m.wave_speed = wave_speed(scene.materials[i].law);
+    m.own_viscosity = own_viscosity(scene.materials[i]);
+    m.step_viscosity = step_viscosity(scene, scene.materials[i].law, plan.time_step);
     m.numerical_viscosity = numerical_viscosity(scene, scene.materials[i].density(), plan.time_step);
     plan.points += m.points;
     plan.points_emitted += m.points_emitted;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,9 +12,24 @@
 /// Scene -> Plan: everything that is derived before a run, resolved once and stored with the job.
 namespace lather {
 
+/// The quality that a budget came to, and what it promises.
+struct BudgetChoice {
+  Quality quality = Quality::kOwn;
+  double seconds = 0;  ///< that the run should take, wall clock, on the machine and threads it was chosen for
+  double error = 0;    ///< largest error of the quality on exact cases, dimensionless
+};
+
 /// What is chosen at submission beyond the scene.
 struct Choices {
   KernelLevel kernel_level = best_kernel_level();
+  std::optional<BudgetChoice> budget = std::nullopt;  ///< where the scene has one
+};
+
+/// One key of the numerics that the scene's quality has a say in.
+struct QualityKey {
+  std::string pointer;  ///< e.g. "/numerics/kernel"
+  std::string value;    ///< in use, JSON
+  bool kept = true;     ///< false: the scene says otherwise than the quality, and wins
 };
 
 struct PlannedField {
@@ -28,13 +44,16 @@ struct PlannedMaterial {
   std::vector<PlannedField> fields;
   int bytes_per_point = 0;         ///< of a full tile, padding included, over its 16 lanes
   double wave_speed = 0;           ///< m/s
-  double numerical_viscosity = 0;  ///< of the FLIP/PIC blend at the planned step, Pa s; 0 with APIC
+  double own_viscosity = 0;        ///< of the law at a shear rate of 1/s, Pa s; 0 where it is no fluid
+  double numerical_viscosity = 0;  ///< of the blend of velocities at the planned step, Pa s; 0 with APIC
+  double step_viscosity = 0;       ///< of the time step itself, Pa s; see step_viscosity()
 };
 
 struct Plan {
   Scene scene;
   Choices choices;
 
+  std::vector<QualityKey> quality;  ///< none: the scene names no quality
   std::vector<PlannedMaterial> materials;
   std::vector<std::string> stages;   ///< in the order in which they run, by the names of the report
   std::vector<std::string> scalars;  ///< point scalars that every frame carries
@@ -47,6 +66,11 @@ struct Plan {
   std::uint64_t memory_bytes =
       0;  ///< expected peak: particles, their sorted copy, grid, block buffers, frame
   std::vector<std::string> warnings;
+
+  /// The one that its budget came to, else the scene's own.
+  [[nodiscard]] Quality chosen_quality() const {
+    return choices.budget ? choices.budget->quality : scene.quality;
+  }
 };
 
 /// Throws InputError when the scene cannot be planned (a body without points, a level the machine lacks, …).

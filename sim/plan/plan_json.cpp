@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/plan/plan.h"
+#include "sim/scene/quality.h"
 #include "sim/shape/mesh_solid.h"
 
 namespace lather {
@@ -55,6 +56,23 @@ AnyJson parse_plan(std::string_view text) {
   return json;
 }
 
+/// What was chosen for the scene's budget.
+std::optional<BudgetChoice> budget_of(const nlohmann::json& choices, Solver solver) {
+  const auto held = choices.find("budget");
+  if (held == choices.end() || !held->is_object()) return std::nullopt;
+  const auto number = [&](const char* key) {
+    const auto found = held->find(key);
+    return found != held->end() && found->is_number() ? found->get<double>() : 0.0;
+  };
+  BudgetChoice choice;
+  choice.seconds = number("seconds");
+  choice.error = number("error");
+  const auto name = held->find("quality");
+  for (const QualityPoint& point : quality_points(solver))
+    if (name != held->end() && *name == point.name) choice.quality = point.quality;
+  return choice;
+}
+
 Scene scene_of(const nlohmann::json& plan, const std::vector<Override>& overrides) {
   return parse_scene(plan["scene"].dump(), "", overrides, meshes_of(plan));
 }
@@ -72,7 +90,9 @@ std::string to_json(const Plan& plan) {
                          {"bytes_per_point", m.bytes_per_point},
                          {"fields", fields},
                          {"wave_speed", m.wave_speed},
-                         {"numerical_viscosity", m.numerical_viscosity}});
+                         {"own_viscosity", m.own_viscosity},
+                         {"numerical_viscosity", m.numerical_viscosity},
+                         {"step_viscosity", m.step_viscosity}});
   }
   Json meshes = Json::object();
   for (const auto& mesh : plan.scene.meshes) meshes[mesh->file] = base64(mesh->bytes);
@@ -90,6 +110,18 @@ std::string to_json(const Plan& plan) {
                {"materials", materials},
                {"warnings", plan.warnings},
                {"scene", Json::parse(to_json(plan.scene))}};
+  if (!plan.quality.empty()) {
+    Json keys = Json::array();
+    for (const QualityKey& key : plan.quality)
+      keys.push_back({{"pointer", key.pointer}, {"value", Json::parse(key.value)}, {"kept", key.kept}});
+    json["quality"] = {{"name", quality_point(plan.scene.solver, plan.chosen_quality()).name},
+                       {"keys", std::move(keys)}};
+  }
+  if (plan.choices.budget)
+    json["choices"]["budget"] = {
+        {"quality", quality_point(plan.scene.solver, plan.choices.budget->quality).name},
+        {"seconds", plan.choices.budget->seconds},
+        {"error", plan.choices.budget->error}};
   if (!meshes.empty()) json["meshes"] = std::move(meshes);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
@@ -100,7 +132,9 @@ Plan read_plan(std::string_view text) {
   Choices choices;
   choices.kernel_level =
       kernel_level_from_string(level.is_string() ? level.get<std::string>() : std::string());
-  return make_plan(scene_of(json, {}), choices);
+  const Scene scene = scene_of(json, {});
+  choices.budget = budget_of(json["choices"], scene.solver);
+  return make_plan(scene, choices);
 }
 
 Scene read_plan_scene(std::string_view text, const std::vector<Override>& overrides) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace lather {
 
@@ -136,6 +137,15 @@ double velocity_blend_viscosity(const Scene& scene, double density, double dt) {
   const double a = 0.5 * n.support_radius * scene.spacing;
   const double kept = std::pow(n.velocity_blend, dt / n.velocity_blend_reference_step);
   return density * (1 - kept) * a * a / (6 * dt);
+}
+
+double step_viscosity(const Scene& scene, const Law& law, double dt) {
+  const double shear = lame_moduli(law).mu;
+  if (scene.numerics.integration == Integration::kSemiImplicit)
+    return (2 * scene.numerics.implicit_share - 1) * shear * dt;
+  if (scene.solver != Solver::kMpm) return 0;
+  const double phase = 2 * std::numbers::pi / 8;  // k h
+  return shear * dt * phase * phase / 3;
 }
 
 double missing_diffusion(const Scene& scene, double dt) {

@@ -61,6 +61,13 @@ namespace lather {
 /// [MLSRK eq. 12]
 [[nodiscard]] double velocity_blend_viscosity(const Scene& scene, double density, double dt);
 
+/// Viscosity that the time step itself adds against change of form, Pa s, at rest. Semi-implicit steps damp
+/// as a diffusion of (2 beta - 1) c^2 dt does, c^2 = mu/rho: (2 beta - 1) mu dt. Explicit ones on a grid
+/// strain points by the grid's new velocity, which has been smoothed less often than their own
+/// (sim/study/verify/standing_wave.cpp): a wave k loses as under mu dt (k h)^2 / 3, given for one of eight
+/// cells. Explicit steps of points alone add none.
+[[nodiscard]] double step_viscosity(const Scene& scene, const Law& law, double dt);
+
 /// Diffusion of velocity that the blend is short of in a step of length dt, m^2/s: over a step longer than
 /// the blend's own time, a filter that acts once a step cannot smooth as much as many short ones do. So the
 /// semi-implicit solver adds it. 0 with APIC, and for pure PIC, which is defined per step.

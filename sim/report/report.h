@@ -113,6 +113,16 @@ struct SolverTotals {
   std::uint64_t convex = 0;       ///< solves that went on without the stiffness that may be negative
 };
 
+/// What was promised of a run with a budget, beside which its wall time stands.
+struct BudgetReport {
+  double seconds = 0;  ///< asked for; 0: an error was
+  double error = 0;    ///< asked for; 0: seconds were
+  std::string quality;
+  double predicted_seconds = 0;  ///< wall clock
+  double predicted_error = 0;    ///< largest of the quality on exact cases, dimensionless
+  double actual_seconds = 0;     ///< wall clock, of steps, drawing and files together
+};
+
 /// What happened: measured, never planned.
 struct Report {
   std::string state = "running";  ///< "running", "succeeded", "failed", "cancelled"
@@ -143,6 +153,7 @@ struct Report {
   std::vector<StageTime> stages;
   std::vector<FrameMeasure> frames;
   std::vector<std::string> warnings;
+  std::optional<BudgetReport> budget;  ///< of a scene that has one
 };
 
 [[nodiscard]] std::string to_json(const Report& report);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "sim/scene/mesh_library.h"
+#include "sim/scene/quality.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_check.h"
 #include "sim/scene/tables.h"
@@ -88,6 +89,25 @@ int dimension_of(const Value& document) {
   return number != nullptr && *number == 2 ? 2 : 3;
 }
 
+/// The numerics that the document's own keys are read into: those of its quality.
+Numerics numerics_before_reading(const Value& document) {
+  const Value* quality = document.find("quality");
+  const Value* solver = document.find("solver");
+  if (quality == nullptr || quality->text() == nullptr) return {};
+  const Solver known = solver != nullptr && solver->text() != nullptr && *solver->text() == "mlsrk"
+                           ? Solver::kMlsrk
+                           : Solver::kMpm;
+  for (const QualityPoint& point : quality_points(known))
+    if (*quality->text() == point.name) return numerics_of(known, point.quality);
+  return {};
+}
+
+void check_budget_alone(const Value& document, const Scene& scene, const Place& root) {
+  if (!scene.budget || scene.quality == Quality::kOwn) return;
+  root.at("quality").refuse(document.find("quality"), "only where there is no budget",
+                            "The budget chooses the quality; take out \"quality\" or \"budget\".");
+}
+
 Scene read(const Value& document, const MeshSource& source, std::vector<Problem>& problems) {
   MeshLibrary meshes(source);
   Reading reading;
@@ -95,12 +115,15 @@ Scene read(const Value& document, const MeshSource& source, std::vector<Problem>
   reading.dimension = dimension_of(document);
   const Place root(reading);
   Scene scene;
+  scene.numerics = numerics_before_reading(document);
+  if (const Value* given = document.find("numerics")) scene.given_numerics = write_json(*given);
   check_format(document, root);
   check_sizes(document, root);
   std::vector<std::string> known = tables::scene().names();
   for (const FieldInfo& field : tables::document_fields()) known.push_back(field.name);
   refuse_unknown_keys(*document.object(), known, root);
   tables::scene().read_fields(document, scene, root);
+  check_budget_alone(document, scene, root);
   check_names(document, scene, root);
   if (reading.problems.empty()) check_whole(document, scene, root);
   problems = std::move(reading.problems);

@@ -184,6 +184,17 @@ struct Numerics {
   Mlsrk mlsrk;                                    ///< of the MLSRK solver only
 };
 
+/// Named choices of the numerics, picked from what was measured; see sim/scene/quality.h. kOwn: none of them,
+/// but what the scene says, and the defaults.
+enum class Quality { kOwn, kDraft, kStandard, kFine, kReference };
+
+/// What a run may take, or by how much it may err; one of the two, the other is 0. The quality is chosen for
+/// it once, before the run.
+struct Budget {
+  double seconds = 0;  ///< of the run, wall clock, s
+  double error = 0;    ///< the largest of what the solver's exact cases were off by, dimensionless
+};
+
 struct Scene {
   std::string name;
   Solver solver = Solver::kMpm;
@@ -202,7 +213,10 @@ struct Scene {
   std::vector<Probe> probes;
   std::uint64_t seed = 0;
   double jitter = 0;  ///< of the initial points, fraction of their distance, 0 … 1
+  Quality quality = Quality::kOwn;
+  std::optional<Budget> budget;
   Numerics numerics;
+  std::string given_numerics;  ///< "numerics" as it was read, JSON; "": none. Its keys win over a quality's
   Look look;
   Output output;
   std::vector<std::shared_ptr<const MeshFile>> meshes;  ///< that the shapes name, as they were read

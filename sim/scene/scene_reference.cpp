@@ -89,6 +89,7 @@ std::string scene_reference() {
       "`probes.csv`.\n\n" +
           rows(tables::probes().common()),
       tables::probes());
+  out += section(tables::budget().info());
   out += section(tables::numerics().info()) + section(tables::resampling().info(), "### ") +
          section(tables::subgrid_removal().info(), "### ") + section(tables::mlsrk().info(), "### ") +
          section(tables::phase_numerics().info(), "#### ");

@@ -188,6 +188,13 @@ const Table<Scene>& scene() {
        optional<Scene>("seed", &Scene::seed, counter(), "of all random numbers"),
        optional<Scene>("jitter", &Scene::jitter, number("1", from_to(0, 1)),
                        "random shift of the initial points, over their distance"),
+       written_where([](const Scene& s) { return s.quality != Quality::kOwn; },
+                     optional<Scene>("quality", &Scene::quality, quality_codec(),
+                                     "how well it is computed: numerics measured to be worth their time "
+                                     "(docs/tradeoff.md); what \"numerics\" says itself wins",
+                                     "none: the defaults of numerics")),
+       switchable<Scene>("budget", &Scene::budget, budget(),
+                         "in place of a quality: the time that the run may take, or an error to stay under"),
        numerics_field(),
        optional<Scene>("look", &Scene::look, object_of(look()), "what pictures show", "see look"),
        optional<Scene>("output", &Scene::output, object_of(output()), "pictures and files of every frame",

@@ -30,6 +30,8 @@ inline constexpr double kMaxSupportRadius = 4;
 [[nodiscard]] const descriptor::Table<Numerics>& numerics();
 [[nodiscard]] const descriptor::Table<Mlsrk>& mlsrk();
 [[nodiscard]] const descriptor::Table<PhaseNumerics>& phase_numerics();
+[[nodiscard]] const descriptor::Table<Budget>& budget();
+[[nodiscard]] const descriptor::Codec<Quality>& quality_codec();
 [[nodiscard]] const descriptor::Table<Resampling>& resampling();
 [[nodiscard]] const descriptor::Table<SubgridRemoval>& subgrid_removal();
 [[nodiscard]] const descriptor::Table<Look>& look();

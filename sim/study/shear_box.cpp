@@ -42,21 +42,6 @@ double box_spacing(const HerschelBulkleyParameters& own, double rate) {
   return kIncrement / rate * wave_speed(own) / 0.3;
 }
 
-/// Mean stresses over the points of the middle half of the gap.
-ShearStress middle_stress(const Simulation& simulation, double half) {
-  ShearStress sum;
-  double count = 0;
-  simulation.visit_points([&](const PointState& p) {
-    if (std::abs(p.position.y()) >= half) return;
-    const ShearStress s = shear_stress(p.stress.data());
-    sum.tau_xy += s.tau_xy;
-    sum.n1 += s.n1;
-    sum.s += s.s;
-    ++count;
-  });
-  return {sum.tau_xy / count, sum.n1 / count, sum.s / count};
-}
-
 }  // namespace
 
 Scene shear_box_scene(const HerschelBulkleyParameters& law, const StartUpRequest& request) {
@@ -107,6 +92,20 @@ Scene particle_shear_box_scene(const HerschelBulkleyParameters& law, const Start
 
 double middle_half(const Scene& shear_box) {
   return kGap / 4.0 * shear_box.spacing;
+}
+
+ShearStress middle_stress(const Simulation& simulation, double half) {
+  ShearStress sum;
+  double count = 0;
+  simulation.visit_points([&](const PointState& p) {
+    if (std::abs(p.position.y()) >= half) return;
+    const ShearStress s = shear_stress(p.stress.data());
+    sum.tau_xy += s.tau_xy;
+    sum.n1 += s.n1;
+    sum.s += s.s;
+    ++count;
+  });
+  return {sum.tau_xy / count, sum.n1 / count, sum.s / count};
 }
 
 StartUp start_up_in_box(const HerschelBulkleyParameters& law, const StartUpRequest& request, int threads,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/scene/scene.h"
+#include "sim/simulation.h"
 #include "sim/study/rheometer.h"
 
 namespace lather::study {
@@ -19,6 +20,9 @@ namespace lather::study {
 
 /// The stress is read where |y| is less than this, m: the middle half of the gap.
 [[nodiscard]] double middle_half(const Scene& shear_box);
+
+/// Mean stresses over the points that are nearer than `half` (m) to the middle plane.
+[[nodiscard]] ShearStress middle_stress(const Simulation& simulation, double half);
 
 /// Longest start-up in the box as shear, dimensionless: a shear of 1 takes about 1500 steps of 2304 points.
 inline constexpr double kMostBoxShear = 100;

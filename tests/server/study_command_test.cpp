@@ -122,5 +122,62 @@ TEST_F(StudyCommand, BenchSetsAScenesCostBesideThePapers) {
   EXPECT_NE(said().find("falling block"), std::string::npos) << said();  // among those that there are
 }
 
+TEST_F(StudyCommand, TradeoffMeasuresKnobsOfACaseAndDrawsThem) {
+  const std::string json = file("trade.json");
+  const std::string chart = file("trade.png");
+  const std::string arguments =
+      "tradeoff mlsrk-couette --quick --knob safety-factor=0.2,0.4 --knob basis=linear,constant ";
+  ASSERT_EQ(run(arguments + "--json " + json + " --chart " + chart), 0) << said();
+  const Json result = Json::parse(read(json));
+  const Json& points = result.at("subjects")[0].at("points");
+  ASSERT_EQ(points.size(), 2U) << "as it is, and one combination of first values";
+  EXPECT_EQ(points[1].at("settings").at("safety-factor"), 0.2);
+  EXPECT_GT(points[1].at("seconds")[0], 0);
+  EXPECT_LT(points[1].at("error"), points[0].at("error"));
+  EXPECT_EQ(read(chart).compare(1, 3, "PNG"), 0);
+  ASSERT_EQ(run(arguments + "--chart " + file("trade.svg")), 0) << said();
+  EXPECT_EQ(read(file("trade.svg")).compare(0, 4, "<svg"), 0);
+  EXPECT_EQ(run("tradeoff mlsrk-couete"), 2);
+  EXPECT_NE(said().find("Did you mean \"mlsrk-couette\""), std::string::npos) << said();
+  EXPECT_EQ(run("tradeoff couette --knob kernl"), 2);
+  EXPECT_NE(said().find("Did you mean \"kernel\""), std::string::npos) << said();
+  EXPECT_EQ(run("tradeoff couette --chart trade.bmp"), 2);
+}
+
+TEST_F(StudyCommand, NeedsAndForecastTellOfScenes) {
+  const std::string scene = std::string(LATHER_SOURCE_DIR) + "/scenes/falling-block.json --size preview ";
+  const std::string json = file("scenes.json");
+  ASSERT_EQ(run("needs " + scene + "--seconds 0.05 --json " + json), 0) << said();
+  const Json needs = Json::parse(read(json)).at("scenes")[0];
+  EXPECT_EQ(needs.at("name"), "falling-block");
+  EXPECT_GT(needs.at("materials")[0].at("fields").size(), 3U);
+  EXPECT_GT(needs.at("stages").size(), 5U);
+  ASSERT_EQ(run("forecast " + scene + "--seconds 0.05 --json " + json), 0) << said();
+  const Json forecast = Json::parse(read(json)).at("scenes")[0];
+  EXPECT_GT(forecast.at("predicted_seconds"), 0);
+  EXPECT_GT(forecast.at("actual_seconds"), 0);
+  EXPECT_EQ(forecast.at("predicted_point_steps"), forecast.at("point_steps"));
+}
+
+TEST_F(StudyCommand, ARunWithABudgetReportsWhatWasPredictedAndWhatItTook) {
+  const std::string scene = std::string(LATHER_SOURCE_DIR) + "/scenes/falling-block.json --size preview ";
+  ASSERT_EQ(
+      run("run " + scene +
+          "--set '/budget={\"seconds\": 1000}' --set /duration=0.05 --threads 1 --json --out " + file("out")),
+      0)
+      << said();
+  EXPECT_NE(said().find("\"budget_seconds\":1000"), std::string::npos) << said();
+  const Json budget = Json::parse(read(file("out") + "/report.json")).at("budget");
+  EXPECT_EQ(budget.at("seconds"), 1000);
+  EXPECT_EQ(budget.at("error"), nullptr);
+  EXPECT_GT(budget.at("predicted_seconds"), 0);
+  EXPECT_GT(budget.at("actual_seconds"), 0);
+  const Json plan = Json::parse(read(file("out") + "/plan.json"));
+  EXPECT_EQ(plan.at("choices").at("budget").at("quality"), budget.at("quality"));
+  ASSERT_EQ(run("plan " + scene + "--set /quality=fine"), 0) << said();
+  EXPECT_NE(said().find("quality        fine"), std::string::npos) << said();
+  EXPECT_NE(said().find("/numerics/safety_factor"), std::string::npos) << said();
+}
+
 }  // namespace
 }  // namespace lather::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/simulation.h"
 #include "sim/study/verify/case.h"
 
 namespace lather::study {
@@ -8,5 +9,10 @@ namespace lather::study {
 [[nodiscard]] std::vector<Finding> verify_film(int threads);
 /// The same velocity profile at finer spacings.
 [[nodiscard]] std::vector<Finding> verify_fine_film(int threads);
+
+/// The film that flows, `cells` over its thickness, in one frame up to when its start has died out.
+[[nodiscard]] Scene flowing_film(int cells, int points_per_cell = 4);
+/// Root of the mean square of the velocity's error over the points, over the plug's speed.
+[[nodiscard]] double film_error(const Simulation& simulation);
 
 }  // namespace lather::study

@@ -24,7 +24,6 @@ namespace lather::study {
 namespace {
 
 constexpr int kFramesPerPeriod = 40;
-constexpr int kPeriods = 4;
 
 struct Wave {
   double period = 0;           ///< s, measured
@@ -32,36 +31,12 @@ struct Wave {
   double exact_period = 0;     ///< s
 };
 
-Scene wave_scene(int cells, Transfer transfer) {
-  const HerschelBulkleyParameters law = {1000, 1e5, 3e4, std::numeric_limits<double>::infinity(), 0, 1};
-  const double h = 1.0 / cells;
-  const double wave_number = 2 * std::numbers::pi;
-  const double c = wave_speed(law);
-  Scene scene;
-  scene.name = "standing wave";
-  scene.dimension = 2;
-  scene.domain.box = {Vec3::Zero(), Vec3(1, 4 * h, 0)};
-  scene.domain.periodic = {true, true, false};
-  scene.gravity = Vec3::Zero();
-  scene.spacing = h;
-  scene.points_per_cell = 4;
-  scene.materials.push_back(material_of(law));
-  // A strain of 1e-6: larger waves steepen. Over four periods a strain of 1e-3 already loses 0.3 % a period
-  // to its overtones.
-  add_layers(scene, scene.domain.box, 0,
-             [&](double x) { return Vec3(1e-6 * c * std::sin(wave_number * x), 0, 0); });
-  scene.numerics.transfer = transfer;
-  scene.numerics.flip_blend = 1;
-  scene.numerics.precision = Precision::kDouble;
-  set_frames(scene, kPeriods / c, kPeriods * kFramesPerPeriod);
-  return scene;
-}
-
 Wave measure(int cells, Transfer transfer, int threads) {
-  const Scene scene = wave_scene(cells, transfer);
+  Scene scene = standing_wave(cells, kFramesPerPeriod);
+  scene.numerics.transfer = transfer;
   const auto simulation = Simulation::create(make_plan(scene), threads);
   std::vector<double> samples;
-  for (int i = 0; i <= kPeriods * kFramesPerPeriod; ++i) {
+  for (int i = 0; i <= kStandingWavePeriods * kFramesPerPeriod; ++i) {
     run_to(*simulation, i);
     samples.push_back(wave_amplitude(*simulation, 0));
   }
@@ -74,6 +49,30 @@ Wave measure(int cells, Transfer transfer, int threads) {
 }
 
 }  // namespace
+
+Scene standing_wave(int cells, int frames_per_period, int points_per_cell) {
+  const HerschelBulkleyParameters law = {1000, 1e5, 3e4, std::numeric_limits<double>::infinity(), 0, 1};
+  const double h = 1.0 / cells;
+  const double wave_number = 2 * std::numbers::pi;
+  const double c = wave_speed(law);
+  Scene scene;
+  scene.name = "standing wave";
+  scene.dimension = 2;
+  scene.domain.box = {Vec3::Zero(), Vec3(1, 4 * h, 0)};
+  scene.domain.periodic = {true, true, false};
+  scene.gravity = Vec3::Zero();
+  scene.spacing = h;
+  scene.points_per_cell = points_per_cell;
+  scene.materials.push_back(material_of(law));
+  // A strain of 1e-6: larger waves steepen. Over four periods a strain of 1e-3 already loses 0.3 % a period
+  // to its overtones.
+  add_layers(scene, scene.domain.box, 0,
+             [&](double x) { return Vec3(1e-6 * c * std::sin(wave_number * x), 0, 0); });
+  scene.numerics.flip_blend = 1;
+  scene.numerics.precision = Precision::kDouble;
+  set_frames(scene, kStandingWavePeriods / c, kStandingWavePeriods * frames_per_period);
+  return scene;
+}
 
 std::vector<Finding> verify_standing_wave(int threads) {
   std::vector<double> spacing;

@@ -18,7 +18,6 @@ namespace lather::study::mlsrk {
 namespace {
 
 constexpr int kFramesPerPeriod = 40;
-constexpr int kPeriods = 4;
 constexpr NeoHookeanParameters kSolid = {{1000, 1e5, 0.3}, {}};
 
 struct Wave {
@@ -27,20 +26,12 @@ struct Wave {
 };
 
 Wave measure(int points, double support_radius, int threads) {
-  const double h = 1.0 / points;
-  Scene scene = particle_scene("standing wave of particles", h, kSolid);
-  const double c = wave_speed(scene.materials.front().law);
-  scene.domain.box = {Vec3::Zero(), Vec3(1, 8 * h, 0)};
-  scene.domain.periodic = {true, true, false};
-  add_layers(scene, scene.domain.box, 0,
-             [&](double x) { return Vec3(1e-6 * c * std::sin(2 * std::numbers::pi * x), 0, 0); });
+  Scene scene = standing_wave(points, kFramesPerPeriod);
   scene.numerics.mlsrk.support_radius = support_radius;
-  scene.numerics.mlsrk.velocity_blend = 1;
   scene.numerics.safety_factor = 0.2;
-  set_frames(scene, kPeriods / c, kPeriods * kFramesPerPeriod);
   const auto simulation = Simulation::create(make_plan(scene), threads);
   std::vector<double> samples;
-  for (int i = 0; i <= kPeriods * kFramesPerPeriod; ++i) {
+  for (int i = 0; i <= kWavePeriods * kFramesPerPeriod; ++i) {
     run_to(*simulation, i);
     samples.push_back(wave_amplitude(*simulation, 0));
   }
@@ -49,6 +40,19 @@ Wave measure(int points, double support_radius, int threads) {
 }
 
 }  // namespace
+
+Scene standing_wave(int points, int frames_per_period) {
+  const double h = 1.0 / points;
+  Scene scene = particle_scene("standing wave of particles", h, kSolid);
+  const double c = wave_speed(scene.materials.front().law);
+  scene.domain.box = {Vec3::Zero(), Vec3(1, 8 * h, 0)};
+  scene.domain.periodic = {true, true, false};
+  add_layers(scene, scene.domain.box, 0,
+             [&](double x) { return Vec3(1e-6 * c * std::sin(2 * std::numbers::pi * x), 0, 0); });
+  scene.numerics.mlsrk.velocity_blend = 1;
+  set_frames(scene, kWavePeriods / c, kWavePeriods * frames_per_period);
+  return scene;
+}
 
 std::vector<Finding> verify_wave(int threads) {
   std::vector<Finding> findings;
