@@ -223,8 +223,7 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   report.render_seconds = renderer.seconds();
   report.threads = threads;
   // Of a run that went on from a checkpoint nobody knows how long it took before.
-  if (plan.scene.budget && plan.choices.budget && at_start)
-    report.budget = kept(plan, seconds_since(start));
+  if (plan.scene.budget && plan.choices.budget && at_start) report.budget = kept(plan, seconds_since(start));
   if (!report.probes.empty()) write_whole(settings.probes, probes_csv(report.probes));
   write_whole(settings.report, to_json(report));
   return report;
