@@ -37,7 +37,7 @@ function Keys({close}: {close: () => void}) {
         ))}
       </div>
       <p class="about quiet">Lather {version} · <a href="licenses.txt" target="_blank" rel="noopener">Licences of what the page is made of</a></p>
-      <p class="dialog-buttons"><button type="button" class="button" onClick={close}>Close</button></p>
+      <p class="dialog-buttons"><button type="button" class="button" autofocus onClick={close}>Close</button></p>
     </Dialog>
   );
 }

@@ -18,7 +18,8 @@ interface Form {
 }
 const FormContext = createContext<Form>(null!);
 
-/** The place that a problem is shown at: groups on the way open. A new object each time. */
+/** The place that a problem is to be shown at: groups on the way open, and who is it takes the focus and forgets it. A new object each
+ * time. */
 export const revealed = signal<{pointer: string} | null>(null);
 
 function resolve(schema: Schema, root: Schema): Schema {
@@ -229,6 +230,7 @@ function Field(props: FieldProps) {
     if (wanted?.pointer !== pointer || !row.current) return;
     row.current.scrollIntoView({block: "center"});
     row.current.querySelector<HTMLElement>("input, select")?.focus({preventScroll: true});
+    revealed.value = null;
   }, [wanted]);
 
   if (schema.const !== undefined) return null;
@@ -264,15 +266,20 @@ function Fold(props: {
   const {name, words, description, pointer, absent, children, remove} = props;
   const {problems} = useContext(FormContext);
   const [open, setOpen] = useState(props.open ?? false);
+  const summary = useRef<HTMLElement>(null);
   const wanted = revealed.value;
   useEffect(() => {
-    if (wanted && (wanted.pointer === pointer || wanted.pointer.startsWith(`${pointer}/`))) setOpen(true);
+    if (wanted?.pointer.startsWith(`${pointer}/`)) setOpen(true);
+    if (wanted?.pointer !== pointer) return;
+    setOpen(true);
+    summary.current?.focus();
+    revealed.value = null;
   }, [wanted]);
   let wrong = 0;
   for (const [at, list] of problems) if (at === pointer || at.startsWith(`${pointer}/`)) wrong += list.length;
   return (
     <details class={`fold ${absent ? "absent" : ""}`} open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-      <summary title={description}>
+      <summary ref={summary} title={description}>
         <span class="fold-name">{name}</span> <span class="fold-words">{words}</span>
         {wrong > 0 && <span class="wrong">{wrong} {wrong === 1 ? "problem" : "problems"}</span>}
       </summary>

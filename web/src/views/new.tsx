@@ -229,6 +229,9 @@ function EditPage() {
 
   useEffect(() => {
     document.title = "New job · Lather";
+    return () => {
+      revealed.value = null;
+    };
   }, []);
   const change = (next: string) => {
     if (draft.value) setDraft({...draft.value, text: next});
@@ -280,9 +283,11 @@ function EditPage() {
     try {
       const job = await postJob(request, postKey.current.key);
       postKey.current = {request: "", key: ""};
-      setDraft({...current, original: current.text});
+      // Unless the user has gone on to something else meanwhile.
+      if (draft.value === current) setDraft({...current, original: current.text});
       announce("The job has been posted.");
-      go(href("job", job.id));
+      if (route.value.view === "new") go(href("job", job.id));
+      else setPosting(false);
     } catch (failure) {
       notify(failure instanceof Unreachable ? "The server does not answer. Post again when it is back: no job is made twice." : words(failure), true);
       setPosting(false);
