@@ -134,7 +134,7 @@ Plan plan_in_budget(const Scene& scene, int threads, const DrawingCost& drawing)
 }
 
 Plan plan_in_budget(const Scene& scene, int threads, const std::string& backend) {
-  const Plan plan = make_plan(scene);
+  Plan plan = make_plan(scene);
   if (!scene.budget) return plan;
   study::require_trial(plan);
   return plan_in_budget(scene, threads, measure_drawing(plan, threads, backend));
