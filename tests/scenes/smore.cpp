@@ -38,17 +38,18 @@ constexpr double kLifted = 0.67;  // s
 // rims of all others, for 0.06 s: most of the time that the cracker rests.
 constexpr double kBulge = 0.005;     // m
 constexpr double kBulgeTime = 0.06;  // s
-// One neck: when the cracker has been lifted by four times the depth of foam that it had left, 40 mm, the
-// foam is still one connected set, and halfway between the pressed plane and the cracker all of it lies
-// nearer to the axis than the rim of the middle hole, by which it is pulled.
-constexpr double kNeckLift = 0.040;
+// One neck: when the cracker has been lifted by 2.5 times the depth of foam that it had left, the foam is
+// still one connected set, and halfway between the pressed plane and the cracker all of it lies nearer to the
+// axis than the rim of the middle hole, by which it is pulled.
+constexpr double kDepth = 0.010;
+constexpr double kNeckLift = 2.5 * kDepth;
 constexpr double kNeckRadius = 0.014;
 // It tears: after the lift there are two parts. A part holds 2 % of the points or more.
 constexpr double kPart = 0.02;
-// The peak: from the end of the lift on, 0.4 s, its tip is 25 mm over the pressed plane (more than twice the
-// depth of foam left there), and 15 mm over all that lies beside it.
-constexpr double kOverPress = 0.025;
-constexpr double kOverRest = 0.015;
+// The peak: from the end of the lift on, 0.4 s, its tip is 15 mm over the pressed plane (half as much again as
+// the foam there is deep), and by that depth over all that lies beside it.
+constexpr double kOverPress = 0.015;
+constexpr double kOverRest = kDepth;
 
 /// Height of the foam over the top face of the cracker in each hole, m.
 std::array<double, 5> bulges(const Simulation& simulation, double top_face) {
