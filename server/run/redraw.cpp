@@ -123,7 +123,7 @@ Report redraw(const Scene& scene, const std::vector<std::filesystem::path>& part
   const Kept kept(scene, particles, with_threads);
   const std::vector<int> indices = kept.indices(range);
   const Scene drawn = with_camera(scene, kept);
-  RenderThread renderer(drawn, scene_hash(scene), with_threads, serial);
+  RenderThread renderer(drawn, scene, with_threads, serial);
   serial.log("drawing with " + renderer.backend());
   const auto start = Clock::now();
   std::size_t done = 0;

@@ -17,14 +17,14 @@ constexpr std::size_t kMostWaiting = 2;
 
 }  // namespace
 
-RenderThread::RenderThread(const Scene& scene, std::string hash, const RunSettings& settings,
+RenderThread::RenderThread(const Scene& drawn, const Scene& named, const RunSettings& settings,
                            RunEvents& events)
-    : scene_(scene),
+    : scene_(drawn),
       settings_(settings),
-      files_(settings.files.empty() ? std::vector<FrameFileKind>{} : planned_files(scene.output)),
+      files_(settings.files.empty() ? std::vector<FrameFileKind>{} : planned_files(drawn.output)),
       events_(events),
-      scene_hash_(std::move(hash)),
-      scene_json_(to_json(scene)) {
+      scene_hash_(scene_hash(named)),
+      scene_json_(to_json(named)) {
   make_directories(settings_.frames);
   for (const FrameFileKind& kind : files_) make_directories(settings_.files / kind.folder);
   if (!settings_.checkpoints.empty()) make_directories(settings_.checkpoints);

@@ -34,10 +34,10 @@ struct Checkpoint {
 /// stepping.
 class RenderThread {
  public:
-  /// Returns once the drawing context stands; throws what made it fail. `scene` and `events` must outlive
+  /// Returns once the drawing context stands; throws what made it fail. `drawn` and `events` must outlive
   /// this. Of the settings all but the report's file count, and `threads` must be known.
-  /// Pictures name the scene by `hash`.
-  RenderThread(const Scene& scene, std::string hash, const RunSettings& settings, RunEvents& events);
+  /// Pictures hold the scene `named`, of which `drawn` is one with its camera framed.
+  RenderThread(const Scene& drawn, const Scene& named, const RunSettings& settings, RunEvents& events);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;

@@ -198,7 +198,7 @@ Report run(const Plan& plan, const RunSettings& settings, RunEvents& events, con
   const Clock::time_point start = Clock::now();
   std::unique_ptr<Simulation> simulation = Simulation::create(plan, threads);
   const Scene drawn = settings.resume_from.empty() ? plan.scene : with_camera(plan.scene, *simulation);
-  RenderThread renderer(drawn, scene_hash(plan.scene), with_threads, serial);
+  RenderThread renderer(drawn, plan.scene, with_threads, serial);
   serial.log("drawing with " + renderer.backend());
   for (const std::string& warning : plan.warnings) serial.log("warning: " + warning);
   simulation = start_or_resume(plan, with_threads, std::move(simulation), serial);

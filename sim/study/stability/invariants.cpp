@@ -82,8 +82,9 @@ std::string gained_energy(const Scene& scene, const FrameMeasure& start, const F
   if (is_driven(scene)) return {};
   const double was = total_energy(scene, start);
   const double is = total_energy(scene, now);
-  return is > 1.1 * was + rounding_energy(scene, now) ? differs("the energy", is, was, "J or less")
-                                                      : std::string();
+  const double allowed = std::max(0.1, scene.numerics.allowed_energy_gain);
+  return is > (1 + allowed) * was + rounding_energy(scene, now) ? differs("the energy", is, was, "J or less")
+                                                                : std::string();
 }
 
 }  // namespace

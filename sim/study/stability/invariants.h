@@ -41,7 +41,8 @@ struct Examination {
 /// - every figure is a number;
 /// - mass is that of the start, with what came in and without what left, to rounding;
 /// - all points lie in the domain, along axes that are neither periodic nor open;
-/// - energy is at most 1.1 of what it was and rounding, where nothing can have put any in: half a step lies
+/// - energy is at most 1.1 of what it was (or what the scene allows beyond that) and rounding, where nothing
+///   can have put any in: half a step lies
 ///   between the velocities and the strains that it is measured from, so that of a wave it oscillates by a
 ///   few percent.
 [[nodiscard]] std::string unsoundness(const Scene& scene, const FrameMeasure& start, const FrameMeasure& now);
