@@ -25,10 +25,12 @@ function(lather_add_kernels name source table)
   set(level_flags_v3 -march=x86-64-v3)
   set(level_flags_v4 -march=x86-64-v4 -mprefer-vector-width=512)
   set(optimize -O3)
+  set(levels v2 v3 v4)
   if(LATHER_SANITIZE)
     set(optimize -O2) # where every access is instrumented g++ takes five times as long for -O3
+    set(levels v2)    # the same code at each level; see sim/kernel_table.h
   endif()
-  foreach(level v2 v3 v4)
+  foreach(level ${levels})
     foreach(real float double)
       set(target ${name}_${real}_${level})
       add_library(${target} OBJECT ${source})

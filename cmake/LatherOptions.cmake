@@ -13,6 +13,7 @@ endif()
 if(LATHER_SANITIZE)
   add_compile_options(-fsanitize=${LATHER_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${LATHER_SANITIZE})
+  add_compile_definitions(LATHER_LEAST_KERNEL_LEVEL_ALONE)
 endif()
 # OpenVDB's loops are synchronised inside TBB's library, which is not instrumented: the thread sanitizer would report
 # them falsely. And its PointPartitioner.h takes &vector[0] of an empty vector, which is harmless but a null reference;

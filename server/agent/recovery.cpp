@@ -80,8 +80,7 @@ std::size_t sweep_attempt(Store& store, const fs::path& directory, const std::st
   const Named named = named_by_rows(store, id, attempt);
   const std::optional<Job> job = store.find(id);
   if (job && job->attempt > attempt && named.frames.empty() && named.checkpoints.empty()) {
-    std::error_code ignored;
-    fs::remove_all(own, ignored);
+    static_cast<void>(remove_tree(own));
     return 0;
   }
   std::size_t removed = sweep_parts(own);
@@ -102,8 +101,7 @@ Recovery recover(Store& store, const fs::path& data) {
     if (store.find(id)) {
       done.files += sweep_job(store, directory, id);
     } else if (is_job_id(id)) {
-      std::error_code ignored;
-      fs::remove_all(directory, ignored);
+      static_cast<void>(remove_tree(directory));
       ++done.directories;
     }
   }

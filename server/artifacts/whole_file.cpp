@@ -72,6 +72,16 @@ void make_directories(const fs::path& directory) {
   sync_directory(above);
 }
 
+bool remove_tree(const fs::path& directory) {
+  constexpr int kTries = 8;  // each fails only where another removed something under its feet
+  std::error_code failure;
+  for (int i = 0; i < kTries; ++i) {
+    fs::remove_all(directory, failure);
+    if (!failure) return true;
+  }
+  return false;
+}
+
 std::size_t sweep_parts(const fs::path& root) {
   std::vector<fs::path> parts;
   std::error_code ignored;

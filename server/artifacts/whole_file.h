@@ -22,6 +22,10 @@ void write_whole(const std::filesystem::path& file, std::initializer_list<std::s
 /// written whole into it is then found after a power cut. Throws std::system_error naming what failed.
 void make_directories(const std::filesystem::path& directory);
 
+/// Removes a directory with all in it, also while another thread removes files of it. False when something
+/// stays.
+bool remove_tree(const std::filesystem::path& directory);
+
 /// Removes every .part below `root` (left by a crash) and says how many there were.
 std::size_t sweep_parts(const std::filesystem::path& root);
 

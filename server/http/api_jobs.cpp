@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/artifacts/layout.h"
+#include "server/artifacts/whole_file.h"
 #include "server/http/api.h"
 #include "server/http/job_changes.h"
 #include "server/http/job_json.h"
@@ -159,8 +160,7 @@ HttpResponse Api::delete_job(const std::string& id) {
   if (!store_.remove(id))
     throw HttpError(409,
                     "the job is " + std::string(to_string(job.state)) + ": cancel it first, then delete it");
-  std::error_code ignored;  // what stays is swept at the next start
-  std::filesystem::remove_all(job_directory(settings_.data, id), ignored);
+  static_cast<void>(remove_tree(job_directory(settings_.data, id)));  // what stays is swept at the next start
   HttpResponse response;
   response.status = 204;
   return response;

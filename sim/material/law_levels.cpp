@@ -1,3 +1,4 @@
+#include "sim/kernel_table.h"
 #include "sim/material/law_points.h"
 
 namespace lather {
@@ -12,12 +13,12 @@ const LawPointTable<double>& double_law_kernels_v4();
 
 template <>
 const LawPointTable<float>& law_point_kernels<float>(KernelLevel level) {
-  return at_level(level, float_law_kernels_v2, float_law_kernels_v3, float_law_kernels_v4)();
+  return LATHER_AT_LEVEL(level, float_law_kernels)();
 }
 
 template <>
 const LawPointTable<double>& law_point_kernels<double>(KernelLevel level) {
-  return at_level(level, double_law_kernels_v2, double_law_kernels_v3, double_law_kernels_v4)();
+  return LATHER_AT_LEVEL(level, double_law_kernels)();
 }
 
 }  // namespace lather

@@ -1,5 +1,7 @@
 #include "sim/mlsrk/levels.h"
 
+#include "sim/kernel_table.h"
+
 namespace lather::mlsrk {
 
 // One object file each, made from kernels.cpp.
@@ -12,12 +14,12 @@ const KernelTable<double>& double_mlsrk_kernels_v4();
 
 template <>
 const KernelTable<float>& kernel_table<float>(KernelLevel level) {
-  return at_level(level, float_mlsrk_kernels_v2, float_mlsrk_kernels_v3, float_mlsrk_kernels_v4)();
+  return LATHER_AT_LEVEL(level, float_mlsrk_kernels)();
 }
 
 template <>
 const KernelTable<double>& kernel_table<double>(KernelLevel level) {
-  return at_level(level, double_mlsrk_kernels_v2, double_mlsrk_kernels_v3, double_mlsrk_kernels_v4)();
+  return LATHER_AT_LEVEL(level, double_mlsrk_kernels)();
 }
 
 }  // namespace lather::mlsrk

@@ -23,6 +23,9 @@ KernelLevel kernel_level_from_string(std::string_view name) {
 
 bool machine_has(KernelLevel level) {
   __builtin_cpu_init();
+#ifdef LATHER_LEAST_KERNEL_LEVEL_ALONE
+  if (level != KernelLevel::kV2) return false;
+#endif
   const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                   __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
   switch (level) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <system_error>
 #include <vector>
 
@@ -77,6 +78,21 @@ TEST_F(ArtifactsTest, SweepsPartsAndNothingElse) {
   EXPECT_EQ(sweep_parts(root_), 2u);
   EXPECT_EQ(read_beneath(root_, "sub/inside.txt"), "inside");
   EXPECT_EQ(sweep_parts(root_), 0u);
+}
+
+TEST_F(ArtifactsTest, ATreeIsRemovedWhileAnotherThreadRemovesFilesOfIt) {
+  const fs::path tree = root_ / "tree";
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 100; ++i) write(tree / "frames" / (std::to_string(i) + ".png"), "x");
+    std::thread other([&] {
+      std::error_code ignored;
+      for (int i = 0; i < 100; ++i) fs::remove(tree / "frames" / (std::to_string(i) + ".png"), ignored);
+    });
+    EXPECT_TRUE(remove_tree(tree));
+    EXPECT_FALSE(fs::exists(tree));
+    other.join();
+  }
+  EXPECT_TRUE(remove_tree(tree)) << "nothing is left of what is not there";
 }
 
 TEST_F(ArtifactsTest, ASecondLockOnADirectoryIsRefusedWhileTheFirstLives) {

@@ -1,3 +1,4 @@
+#include "sim/kernel_table.h"
 #include "sim/study/bench/peak_kernels.h"
 
 namespace lather::study {
@@ -12,12 +13,12 @@ const PeakKernels<double>& double_peak_kernels_v4();
 
 template <>
 const PeakKernels<float>& peak_kernels<float>(KernelLevel level) {
-  return at_level(level, float_peak_kernels_v2, float_peak_kernels_v3, float_peak_kernels_v4)();
+  return LATHER_AT_LEVEL(level, float_peak_kernels)();
 }
 
 template <>
 const PeakKernels<double>& peak_kernels<double>(KernelLevel level) {
-  return at_level(level, double_peak_kernels_v2, double_peak_kernels_v3, double_peak_kernels_v4)();
+  return LATHER_AT_LEVEL(level, double_peak_kernels)();
 }
 
 }  // namespace lather::study
