@@ -211,7 +211,7 @@ TEST_P(Resume, DamagedCheckpointsFallBackToOlderOnesThenToTheStart) {
             std::string::npos)
       << second.said;
   damage(files[1]);
-  Recorder third(Stop::kNow, 1);
+  Recorder third(Stop::kAfterCheckpoint, 1);
   static_cast<void>(run_into("third", third, files));
   EXPECT_NE(third.said.find("from the start"), std::string::npos) << third.said;
   EXPECT_EQ(third.frames.begin()->first, 0);
