@@ -29,7 +29,7 @@ class InputError : public std::runtime_error {
 class SimulationError : public std::runtime_error {
  public:
   struct Details {
-    std::string kind;      ///< "non-finite", "runaway", "energy", "capacity"
+    std::string kind;      ///< "non-finite", "runaway", "energy", "grip", "capacity"
     long long step = 0;    ///< index of the step that failed, from 0
     double time = 0;       ///< simulated time at its start, s
     std::string quantity;  ///< e.g. "particle velocity"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "server/artifacts/digest.h"
